@@ -7,27 +7,25 @@ from dataclasses import replace
 
 import numpy as np
 
+from linkage import Acting, ForceElement, LoadCase, Mechanism, Verdict
 from linkage.cli.command import CSV, EVERY, PICTURES, Command, lined_up, machine_options, option, picture, pose_options
 from linkage.cli.follow import ALONG, PAGE
 from linkage.cli.settings import CHECK, OVER, judged_code, judged_over, machine_of, motions_at, overs_of, print_verdicts, si_value
 from linkage.cli.table import Table, heading_words, write_table, write_tables
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.language import noted, said
-from linkage.loads import Acting, ForceElement, LoadCase
-from linkage.mechanism import Mechanism
 from linkage.motion import Column, Judge, Motion, columns_of, least
 from linkage.motion.limits import stroke_unit, timed_texts
 from linkage.statics import LawRequest, elements_of, is_among, pull_direction
 from linkage.units import g0, show
-from linkage.verdict import Verdict
 
 from .cycle import PumpCycle, judged_cycles
 from .cycle_chart import cycle_columns, energy_rows, line_heads, line_rows, plot_cycle
 from .cylinders import Ram, found_in
 from .inputs import one_design, proper_share
-from .lift import LiftCircuit, line_verdicts
+from .lift import LiftCircuit, PumpLine, line_verdicts
 from .programme import programme_read, pump_of
-from .requests import capacity_request
+from .requests import capacity_request, circuit_with
 
 FURTHER = noted("further load")
 """What is lifted beside the machine's own loads: not what a machine calls its lifting capacity, in which these count."""
@@ -99,21 +97,15 @@ def cylinder_of(machine: Mechanism, name: str | None) -> Ram:
     raise DefinitionError(f"{plan.title} has no cylinder {'but those that gas feeds' if fed else 'that could lift'}; {remedy}.")
 
 
-def circuit_of(machine: Mechanism, ram: Ram, options: Namespace) -> LiftCircuit:
-    """Return the circuit that feeds a cylinder: a given pressure, the circuit named, else its only one."""
+def circuit_of(machine: Mechanism, ram: Ram, options: Namespace) -> PumpLine:
+    """Return the circuit that feeds a cylinder: a given pressure, the circuit named, else its only one with a pump."""
     plan = machine.plan
     if options.pressure is not None:
         ensure(options.circuit is None, "--pressure and --circuit both say what feeds the cylinder; give one of them.")
         pressure = si_value(options.pressure, "pressure", "--pressure")
         ensure(not pressure < 0.0, f"--pressure {options.pressure}: it is negative; give zero or more.")
         return LiftCircuit(ram.name, pressure=pressure)
-    circuits = {name: each for name, each in plan.of_kind(LiftCircuit).items() if is_among(ram, each.members(plan.members))}
-    if options.circuit is not None:
-        return circuits[known_name("LiftCircuit", options.circuit, circuits, f"{plan.title} with {ram.name}")]
-    if len(circuits) == 1:
-        return next(iter(circuits.values()))
-    ensure(not circuits, f"{plan.title}: {ram.name} is on {len(circuits)} circuits; say --circuit one of {', '.join(circuits)}.")
-    raise DefinitionError(f"{plan.title}: no LiftCircuit has {ram.name}, whose pump counts; declare one, or say --pressure 180bar.")
+    return plan.of_kind(PumpLine)[circuit_with(plan, ram, options.circuit or "", "capacity").name]
 
 
 def point_of(machine: Mechanism, name: str | None) -> str:

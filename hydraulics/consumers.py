@@ -255,8 +255,7 @@ class Consumers:
         if inlet.sides is not None:
             return False
         fills = PISTON if inlet.sense > 0.0 else ROD
-        others = [line for line, each in lines_of(inlet.ram, self.members) if each.side == fills and line not in self.lines]
-        held = [line for line in others if line.kind_in(self.members) == "held"]
+        held = [line for line, each in lines_of(inlet.ram, self.members, "held") if each.side == fills and line not in self.lines]
         mine = [each.line for each in self.inlets if each.ram is inlet.ram and each.sense == inlet.sense and each.sides is not None]
         return bool(held or mine)
 

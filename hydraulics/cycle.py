@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from linkage import DefinitionError, Verdict
 from linkage.disk import replacing_text
-from linkage.errors import DefinitionError
 from linkage.frozen import FrozenDict, immutable, read_only, refuses_changes
 from linkage.language import said
 from linkage.loads import PLAIN_CASE, Acting, ForceElement
@@ -27,7 +27,6 @@ from linkage.plan import Plan
 from linkage.quantities import name_of
 from linkage.statics import has_masses
 from linkage.units import show
-from linkage.verdict import Verdict
 
 from .consumers import AT_BORDER, Consumers, Consumption, lines_on, refuse_unpushed
 from .inputs import Array, number_set, one_design, positive

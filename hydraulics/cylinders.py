@@ -294,15 +294,9 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
     def closed_thrust(self, motion: AnyMotion, acting: Acting) -> Array | None:
-        members = motion.plan.members
-        closed = [(line, chamber) for line, chamber in lines_of(self, members) if line.kind_in(members) == "closed"]
+        closed = lines_of(self, motion.plan.members, "closed")
         parts = [line.line_pressure(motion, acting) * chamber_area(chamber, self, motion) for line, chamber in closed]
         return reduce(np.add, parts) if parts else None
-
-    def working_area(self, motion: Poses) -> Array:
-        """Return its thrust at one unit of pressure on the side that works [m2]."""
-        size = self.sized(motion)
-        return np.asarray(size.sense * size.area)[()]
 
     @property
     def stages(self) -> int:
@@ -513,8 +507,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         if len(lines) > 1 and not (lines := lines_by_side(self, motion.plan)):
             return found
         found.append(Column(noted("pressure"), pressure_of(self, motion, acting), "bar", 2))
-        uses = [each.use_of(self, motion, acting) for each in lines]
-        used = [each for each in uses if each is not None]
+        used = [use for each in lines if (use := each.use_of(self, motion, acting)) is not None]
         if not used:
             return found
         use = reduce(np.maximum, used)
@@ -563,8 +556,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def gauges(self, plan: Plan) -> dict[str, Request]:
         circuits, by_side = circuits_of(self, plan), lines_by_side(self, plan)
         read: dict[str, Reading] = {name: partial(self.length_set, name) for name in self.lengths_given}
-        if len(circuits) == 1:
-            read |= circuits[0].gauges_of(self, plan)
+        read |= circuits[0].gauges_of(self, plan) if len(circuits) == 1 else {}
         found: dict[str, Request] = {name: LawRequest(text=f"{self.name} {name}", formula=each) for name, each in read.items()}
         if by_side:
             found["most"] = LawRequest(text=f"{self.name} most", formula=partial(most_of_side, self), acting=Acting(), mover=self.name)
@@ -1118,15 +1110,14 @@ def rate_request(cylinder: str) -> LawRequest:
     return LawRequest(formula=over, text=f"rate({cylinder})", known=("rate", cylinder), measures="speed", examine=examine)
 
 
+CylinderLaw: TypeAlias = Callable[[AnyMotion, Ram, Acting], Array]
+"""A formula of one cylinder over the poses of a motion, in a situation [SI]."""
+Options: TypeAlias = tuple[Hashable, ...]
+"""What stands in a request's text and tells it from others."""
+
+
 def cylinder_request(
-    word: str,
-    cylinder: str | Ram,
-    acting: Acting,
-    formula: Callable[[AnyMotion, Ram, Acting], Array],
-    before: tuple[Hashable, ...] = (),
-    after: tuple[Hashable, ...] = (),
-    *,
-    measures: str = "",
+    word: str, cylinder: str | Ram, acting: Acting, formula: CylinderLaw, before: Options = (), after: Options = (), *, measures: str = ""
 ) -> LawRequest:
     """Return the request for a formula of one cylinder of a class, in a situation; its directions are the cylinder's own.
 
@@ -1614,9 +1605,10 @@ def as_in(plan: Declared, each: Own) -> Own:
     return found if isinstance(found, type(each)) else each
 
 
-def lines_of(cylinder: Ram, members: NamedMembers) -> list[tuple[Circuit, Chamber]]:
-    """Return the chambers of a cylinder that lines name, each with its line."""
-    return [(line, each) for line in circuits_among(members) for each in line.chambers_of(cylinder, members)]
+def lines_of(cylinder: Ram, members: NamedMembers, kind: str = "") -> list[tuple[Circuit, Chamber]]:
+    """Return the chambers of a cylinder that lines name, each with its line; those of one of the KINDS on request."""
+    lines = (line for line in circuits_among(members) if not kind or line.kind_in(members) == kind)
+    return [(line, each) for line in lines for each in line.chambers_of(cylinder, members)]
 
 
 def circuits_among(members: NamedMembers) -> list[Circuit]:
@@ -1642,9 +1634,7 @@ def works_by_lines(cylinder: Ram, members: NamedMembers) -> Works | None:
     of_lines = [each for each, _ in named]
     if any(cylinder.name in map(label, each.bare) and each not in of_lines for each in circuits_among(members)):
         return None  # a circuit that names the cylinder alone is on the side that it says to work with
-    by_kind = [(line, chamber) for kind in KINDS for line, chamber in named if line.kind_in(members) == kind]
-    first = by_kind[0][0].kind_in(members)
-    working = [(line, chamber) for line, chamber in by_kind if line.kind_in(members) == first]
+    working = next(filter(None, (lines_of(cylinder, members, kind) for kind in KINDS)))
     if len(working) == 1:
         return working[0][1].side
     return "regenerative" if working[0][0] is working[1][0] else "both"
@@ -1698,7 +1688,7 @@ def length_in(cylinder: Ram, members: NamedMembers) -> Quantity:
     called = f"{cylinder.name}.length"
     if called not in names_behind(cylinder.ends, members):
         return distance(cylinder.A, cylinder.B)
-    own = [(line, chamber) for line, chamber in lines_of(cylinder, members) if line.kind_in(members) == "closed"]
+    own = lines_of(cylinder, members, "closed")
     if not own:
         what = f"{called} is asked for by what places its own pins, {cylinder.A} and {cylinder.B}, and no closed line gives it"
         raise DefinitionError(f"{what}; declare one, OilLine({cylinder.name}.piston_side, other.piston_side, filled=dict(...)).")
@@ -1719,7 +1709,7 @@ def lines_giving(members: NamedMembers) -> dict[str, Circuit]:
     """
     asking = [each for each in of_kind(members, Ram).values() if lines_of(each, members)]
     asking = [each for each in asking if f"{each.name}.length" in names_behind(each.ends, members)]
-    closed = {each.name: [line for line, _ in lines_of(each, members) if line.kind_in(members) == "closed"] for each in asking}
+    closed = {each.name: [line for line, _ in lines_of(each, members, "closed")] for each in asking}
     closed = {name: sorted(lines, key=lambda line: not line.fills(name)) for name, lines in closed.items()}
     found: dict[str, Circuit] = {}
 

@@ -47,6 +47,8 @@ class GasLine(Circuit):
     """The base of lines whose pressure is that of gas, by the volume drawn from it: shared by `FloatCircuit` and `OilLine`."""
 
     charge_pressure: Parameter | None
+    not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"exponent": "ratio"})
 
     @abstractmethod
     def gas_block(self) -> Block | None:
@@ -319,8 +321,6 @@ class FloatCircuit(GasLine):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {"charge_pressure": "bar", "at": "", "seal_friction": "bar", "exponent": ""}
     )
-    not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
-    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"exponent": "ratio"})
     stroke_values: ClassVar[frozenset[str]] = frozenset({"at"})
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads", "block": AccumulatorBlock})
 

@@ -34,6 +34,8 @@ LONGEST = 30.0
 """m; a longer stroke was given in millimetres."""
 SLENDER = 300.0
 """A stroke of more bores than this was given in millimetres."""
+PUMPED = MappingProxyType({"pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": ""})
+"""The numbers of a pump with their units."""
 EFFICIENCIES = MappingProxyType({"mechanical_efficiency": "efficiency", "hydraulic_efficiency": "efficiency"})
 STRONGEST = 1.0
 """m3/s; a larger flow was given in litres a minute."""

@@ -44,7 +44,7 @@ from .cylinders import (
     thrust_request,
 )
 from .files import pressure_kind
-from .inputs import EFFICIENCIES, Array, check_pressures, follows, not_negative, one_design, one_number
+from .inputs import EFFICIENCIES, PUMPED, Array, check_pressures, follows, not_negative, one_design, one_number
 from .lifting_line import LiftLine
 from .moving import flow
 from .pump import Pump
@@ -157,16 +157,7 @@ class LiftCircuit(PumpLine):
     hydraulic_efficiency: Parameter = 1.0
     back_pressure: Parameter = 0.0
     relief: Parameter | None = None
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {
-            "pressure": "bar",
-            "flow": "l/min",
-            "mechanical_efficiency": "",
-            "hydraulic_efficiency": "",
-            "back_pressure": "bar",
-            "relief": "bar",
-        }
-    )
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({**PUMPED, "back_pressure": "bar", "relief": "bar"})
     limited: ClassVar[Mapping[str, str]] = EFFICIENCIES
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})

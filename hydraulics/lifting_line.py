@@ -217,10 +217,9 @@ class LiftLine(Circuit):
     def tie(self, members: NamedMembers) -> Tie | None:
         """Return how its pressure acts on its cylinders, where a closed line has another side of one of them."""
         own = self.members(members)
-        closed = [line for ram in own for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"]
-        if not closed:
+        if not any(lines_of(ram, members, "closed") for ram in own):
             return None
-        return Tie(self.name, tuple(Share(ram, ram.working_area) for ram in own), held=True)
+        return Tie(self.name, tuple(Share(ram, partial(ram.area_in, sense=np.ones(()))) for ram in own), held=True)
 
     def formulas(self, written: Formulas) -> None:
         """Write of each of its cylinders, while it lifts against the load: rod force, pressure, greatest rod force and reserve.
@@ -235,8 +234,7 @@ class LiftLine(Circuit):
             given = [number(f"{kind}_efficiency") for kind in ("mechanical", "hydraulic")]
             k_m, k_h = (1.0 if written.equals(each, 1.0) else each for each in given)
             area, other = ram.sides_written(written, thrust)
-            pipes = [line for line, _ in lines_of(ram, members) if isinstance(line, LiftLine)]
-            drained = [line for line in pipes if line.kind_in(members) == "given" and line.is_drained]
+            drained = [line for line, _ in lines_of(ram, members, "given") if isinstance(line, LiftLine) and line.is_drained]
             back = drained[0].number_written(written, "back_pressure") if drained else number("back_pressure")
             against: Array | float = 0.0 if written.equals(back, 0.0) else back * other
             supply = np.minimum(number("pressure"), number("relief")) if self.relieves(written.plan) else number("pressure")

@@ -127,8 +127,6 @@ class OilLine(PumpLine, GasLine):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {"oil": "l", "make_up": "bar", "charge_pressure": "bar", "seal_friction": "bar", "exponent": ""}
     )
-    not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
-    limited: ClassVar[Mapping[str, str]] = MappingProxyType({"exponent": "ratio"})
     optional: ClassVar[frozenset[str]] = frozenset({"charge_pressure"})
     argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
         {"on": lambda: on_line_kind(AccumulatorBlock, Pump, Relief, Tank), "at": filled_kind, "filled": filled_kind}
@@ -743,8 +741,7 @@ class OilLine(PumpLine, GasLine):
             thrust = self.thrust_of(ram, motion, {}) + more
             return thrust, thrust
         own = [chamber_area(chamber, ram, motion) for each, chamber in self.filling(members) if same(each, ram)]
-        closed = [line for line, _ in lines_of(ram, members) if line.kind_in(members) == "closed"]
-        if len(own) > 1 or len(closed) > 1:
+        if len(own) > 1 or len(lines_of(ram, members, "closed")) > 1:
             return UNBOUNDED
         most = self.number(motion, "relief") if self.relieves(motion.plan) else np.asarray(np.inf)
         low, high = self.least(motion) * own[0] + more, most * own[0] + more

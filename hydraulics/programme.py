@@ -7,13 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
+from linkage import LoadCase, Mechanism
 from linkage.checks import require
 from linkage.errors import DefinitionError, cited, ensure, known_name
 from linkage.files.names import FileTable, by_whole_names
 from linkage.files.source import Source, measured_columns, source
 from linkage.frozen import immutable
-from linkage.loads import LoadCase
-from linkage.mechanism import Mechanism
 from linkage.motion import stroke_measure
 from linkage.quantities import Course, Reference, is_number
 from linkage.units import parse

@@ -12,20 +12,19 @@ from typing import Any, ClassVar, Literal, cast
 
 import numpy as np
 
+from linkage import Mechanism, Remark, Verdict
 from linkage.checks import require_type
 from linkage.errors import DefinitionError, known_name, one_word
 from linkage.frozen import immutable
 from linkage.language import noted, said
 from linkage.loads import Acting, Parameter
-from linkage.mechanism import Mechanism
 from linkage.motion import HasVerdicts, Judge, Motion, from_above, require_motion
 from linkage.quantities import NamedMembers, Reference, is_member_or_name, name_of, needs, of_kind
-from linkage.verdict import Remark, Verdict
 
 from .consumers import in_plan, lines_on
 from .cycle import PumpCycle, cycles_over, is_shared, judged_cycles, pump_verdicts
 from .cylinders import OnLines, Ram, circuits_among
-from .inputs import EFFICIENCIES, check_pressures, follows
+from .inputs import EFFICIENCIES, PUMPED, check_pressures, follows
 from .sharing import SHARINGS
 from .working import Demand, PumpMotion, worked
 
@@ -101,9 +100,7 @@ class Pump(Supply):
     margin: Parameter = 0.0
     sharing: Literal["by demand", "least pressure first"] = "by demand"
     first: Reference | Sequence[Reference] = ()
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({
-        "pressure": "bar", "flow": "l/min", "mechanical_efficiency": "", "hydraulic_efficiency": "", "power": "kW", "margin": "bar",
-    })  # fmt: skip
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({**PUMPED, "power": "kW", "margin": "bar"})
     limited: ClassVar[Mapping[str, str]] = EFFICIENCIES
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "power", "margin"})
     optional: ClassVar[frozenset[str]] = frozenset({"power"})

@@ -5,7 +5,7 @@ Each is the cylinder's or the circuit's own method, read pose by pose: `motion[p
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
 from operator import add
@@ -28,6 +28,8 @@ from .cylinders import (
     ROD,
     SIDES,
     Circuit,
+    CylinderLaw,
+    Options,
     Ram,
     buckling_request,
     by_other_lines,
@@ -106,21 +108,17 @@ def cylinder_on(cylinder: str | Ram, circuit: Circuits, plan: Plan, word: str) -
     return circuit_with(plan, ram, circuit, word).as_worked(ram, plan.members)
 
 
+def circuit_shown(circuit: Circuits) -> str | Circuits | None:
+    """Return a circuit as the text of a request has it; itself where it has no name, None for the only one."""
+    name = name_of(circuit, is_needed=False)
+    return f"circuit={name}" if name else circuit or None
+
+
 def circuit_request(
-    word: str,
-    cylinder: str | Ram,
-    acting: Acting,
-    circuit: Circuits,
-    formula: Callable[[AnyMotion, Ram, Acting], Array],
-    before: tuple[Hashable, ...] = (),
-    after: tuple[Hashable, ...] = (),
-    *,
-    measures: str = "",
+    word: str, cylinder: str | Ram, acting: Acting, circuit: Circuits, formula: CylinderLaw, after: Options = (), measures: str = ""
 ) -> LawRequest:
     """Return the request for a formula of a cylinder and its circuit: the only one that feeds it, unless named."""
-    name = name_of(circuit, is_needed=False)
-    shown = f"circuit={name}" if name else circuit or None
-    found = cylinder_request(word, cylinder, acting, formula, (*before, shown), after, measures=measures)
+    found = cylinder_request(word, cylinder, acting, formula, (circuit_shown(circuit),), after, measures=measures)
     return replace(found, examine=partial(circuit_with, cylinder=cylinder, circuit=circuit, word=word))
 
 
@@ -221,7 +219,7 @@ def pressure_request(
 
     kinds = " ".join(["needed"] * is_needed + ["below zero"] * below) or None
     options = (side and f"side={side}") or None, kinds
-    found = circuit_request("pressure", cylinder, acting, circuit, in_cylinder, after=options, measures="pressure")
+    found = circuit_request("pressure", cylinder, acting, circuit, in_cylinder, options, "pressure")
     cases_in = partial(is_free, cylinder, side, circuit) if circuit and side else found.cases_in
     return replace(found, formula=formula, examine=examine, directions=directions, pieces_in=pieces, cases_in=cases_in)
 
@@ -242,7 +240,7 @@ def left_request(cylinder: str | Ram, acting: Acting, circuit: Circuits, behind:
         line = circuit_with(motion.plan, ram, circuit, "holding")
         return np.asarray(ram.sized(motion).sense * line_thrust(ram, line, motion, acting))[()]
 
-    found = circuit_request("holding", cylinder, acting, circuit, left, measures="force")
+    found = circuit_request("holding", cylinder, acting, circuit, left, (), "force")
     return replace(found, cases_in=lambda plan, case: not is_free(cylinder, behind, circuit, plan, case))
 
 
@@ -328,15 +326,14 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
         acting = request.situation
         if acting.direction not in directions(plan):
             return in_stages(cylinder, plan, SmoothPiece(request))
-        inverse = circuit_request("reserve", cylinder, acting, circuit, use, after=("its inverse",))
+        inverse = circuit_request("reserve", cylinder, acting, circuit, use, ("its inverse",))
         inverse = replace(inverse, cases_in=partial(moves_in, cylinder))
         judged = reserve_request(cylinder, acting, circuit, is_judged=True)
         return in_stages(cylinder, plan, SmoothPiece(judged, DRIVING.get(acting.direction or "", ""), inverse))
 
+    against = "against the load" if is_judged else None
     return replace(
-        circuit_request(
-            "reserve", cylinder, acting, circuit, over_needed, after=("against the load" if is_judged else None,), measures="number"
-        ),
+        circuit_request("reserve", cylinder, acting, circuit, over_needed, (against,), "number"),
         directions=directions, pieces_in=pieces, cases_in=partial(moves_in, cylinder),
         unlimited_in=partial(formula_of_cylinder, is_driven, cylinder),
     )  # fmt: skip
@@ -366,7 +363,7 @@ def going_back_request(
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         return in_stages(cylinder, plan, SmoothPiece(request))
 
-    found = circuit_request("going back", cylinder, acting, circuit, over, after=(way, resistance, tells), measures="pressure")
+    found = circuit_request("going back", cylinder, acting, circuit, over, (way, resistance, tells), "pressure")
     return replace(
         found, directions=(way,), pieces_in=pieces, cases_in=partial(moves_in, cylinder),
         unlimited_in=partial(formula_of_cylinder, goes_another_way, cylinder),
@@ -450,7 +447,7 @@ def capacity_request(
 
     words = direction_words(along)
     options = None if words == "(0, 1)" else f"along={words}", None if share == 1.0 else f"share={share:g}"
-    found = circuit_request("capacity", cylinder, acting, circuit, lifted, (point,), options, measures="force")
+    found = cylinder_request("capacity", cylinder, acting, lifted, (point, circuit_shown(circuit)), options, measures="force")
     return replace(
         found, known=found.known if limit is None else (found.known, limit), directions=(), examine=examine,
         pieces_in=pieces if limit is None else None, unlimited_in=partial(formula_of_cylinder, is_driven, cylinder),

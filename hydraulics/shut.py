@@ -7,15 +7,13 @@ from typing import cast
 
 import numpy as np
 
-from linkage.errors import DefinitionError
+from linkage import Acting, DefinitionError, LoadCase, Verdict
 from linkage.language import said
-from linkage.loads import Acting, LoadCase
 from linkage.motion import Judge, most
 from linkage.plan import Plan
 from linkage.quantities import NamedMembers, of_kind
 from linkage.statics import AnyMotion, LawRequest, held_in_case, is_among, member_thrust, same
 from linkage.units import show
-from linkage.verdict import Verdict
 
 from .cylinders import Circuit, least_and_most
 from .inputs import Array, one_design

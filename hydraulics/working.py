@@ -16,12 +16,11 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from linkage import Acting, ForceElement, Mechanism
 from linkage.checks import require, require_number, require_type
 from linkage.errors import AssemblyError, DefinitionError, ensure, known_name, unwarned
 from linkage.frozen import FrozenDict
 from linkage.language import said, with_and
-from linkage.loads import Acting, ForceElement
-from linkage.mechanism import Mechanism
 from linkage.motion import Instants, Motion, Over
 from linkage.numeric import last_holding
 from linkage.plan import Mask, Plan, require_kinds

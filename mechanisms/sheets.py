@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
+from linkage.program import FloatArray
 
 WORDS: Mapping[str, Any] = {"fontsize": style.TEXT, "color": style.MUTED}
 """The look of what stands along an axis."""
@@ -33,6 +34,16 @@ def axis_words(ax: Axes, along: str, up: str) -> None:
     """Write the labels of both axes, with units."""
     ax.set_xlabel(along, **WORDS)
     ax.set_ylabel(up, **WORDS)
+
+
+def curve(ax: Axes, along: FloatArray, values: FloatArray, colour: str, text: str = "", line: str = "-", width: float = 2.0) -> None:
+    """Draw a curve, with its name in the legend where it has one."""
+    ax.plot(along, values, color=colour, linewidth=width, linestyle=line, label=text or None, zorder=6.0)
+
+
+def dot(ax: Axes, along: Any, values: Any, colour: str, size: float = 7.0) -> None:
+    """Mark places by dots."""
+    ax.plot(along, values, "o", color=colour, markersize=size, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
 
 
 def beside(ax: Axes, text: str, at: tuple[float, float], off: tuple[float, float], **look: Any) -> None:

@@ -385,7 +385,7 @@ class ForceElement(Jointed):
             The dimension's name.
         """
         given = self.given(name)
-        return name_of(quantity(given), is_needed=False) if isinstance(given, (str, Quantity)) else f"{self.name}.{name}"
+        return name_of(given, is_needed=False) if isinstance(given, (str, Quantity)) else f"{self.name}.{name}"
 
     def sizes_made(self, name: str) -> Sequence[float]:
         """Return the sizes that a parameter is made in by a standard, ascending [SI]; none where any is.

@@ -48,15 +48,15 @@ class Axle(Mechanism):
     about = Featured("right.T_y", ["right.T", "left.T"])
 
 
+def crossed(side: str, other: str) -> OilLine:
+    """Return the line of the piston side of one strut and the rod side of the other, on a block of its own."""
+    block = AccumulatorBlock([Accumulator(volume=2 * litre, charge=60 * bar)])
+    chambers, at = (f"{side}.strut.piston_side", f"{other}.strut.rod_side"), dict(right_in=0.0, left_in=0.0)
+    return OilLine(*chambers, block, at=at, charge_pressure=103.2 * bar)
+
+
 class CrossedAxle(Axle):
     """The piston side of each strut on one block with the rod side across: it stands as high, and resists `rolling`."""
 
     line = None  # type: ignore[assignment]
-    to_right = OilLine(
-        "right.strut.piston_side", "left.strut.rod_side", AccumulatorBlock([Accumulator(volume=2 * litre, charge=60 * bar)]),
-        at=dict(right_in=0.0, left_in=0.0), charge_pressure=103.2 * bar,
-    )  # fmt: skip
-    to_left = OilLine(
-        "left.strut.piston_side", "right.strut.rod_side", AccumulatorBlock([Accumulator(volume=2 * litre, charge=60 * bar)]),
-        at=dict(right_in=0.0, left_in=0.0), charge_pressure=103.2 * bar,
-    )  # fmt: skip
+    to_right, to_left = crossed("right", "left"), crossed("left", "right")

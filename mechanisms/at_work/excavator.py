@@ -11,9 +11,8 @@ from math import atan2, hypot
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, RIGHT, Carried, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Over, Part, Stroke, angle, ramp
+from linkage import LEFT, RIGHT, Carried, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Over, Part, Stroke, angle, bar, mm, ramp
 from linkage.loads import Force, LinkMass, LoadCase, Support, Weight
-from linkage.units import bar, mm
 
 
 class Boom(Mechanism):

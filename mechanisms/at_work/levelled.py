@@ -5,10 +5,9 @@ from __future__ import annotations
 from math import atan2, hypot, pi
 
 from hydraulics import Cylinder, OilLine
-from linkage import LEFT, Dyad, Featured, Ground, LinkMass, LoadCase, OnLink, Outline, Over, Stroke, Weight, angle
-from linkage.units import deg, mm
+from linkage import LEFT, Dyad, Featured, Ground, LinkMass, LoadCase, OnLink, Outline, Over, Stroke, Weight, angle, deg, mm
 
-from .telehandler import Telehandler
+from .telehandler import FORK, Telehandler
 
 
 class LevelledTelehandler(Telehandler):
@@ -34,7 +33,7 @@ class LevelledTelehandler(Telehandler):
 
     steel = LinkMass((F, X), mass=260.0, at=(0.20, 0.15))
     load = Weight(G, mass=3000.0)
-    shape = Outline([(0.0, 0.0), (1.2, 0.0), (1.2, -0.04), (-0.06, -0.06), (-0.08, 0.75), (0.0, 0.75)], on=(F, X))
+    shape = Outline(FORK, on=(F, X))
     far = LoadCase("far", scale=dict(load=1.1 / 3.0))
     stacking = Over.path(lift=[0.0, 0.7], extend=0.0, tilt=0.0, cases=["plain"])
     reaching = Over.path(lift=0.3, extend=[0.0, 3.0], tilt=0.0, cases=["far"])

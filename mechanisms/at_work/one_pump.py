@@ -6,8 +6,7 @@ The pumps and the cycles are illustrative; what stands on them is as it is shipp
 from __future__ import annotations
 
 from hydraulics import Cylinder, LiftCircuit, OilLine, Pump, Relief
-from linkage import Featured, Ground, Guide, Mechanism, OnGuide, Outline, Over, Part, Stroke, deg, ramp
-from linkage.loads import Spring, Weight
+from linkage import Featured, Ground, Guide, Mechanism, OnGuide, Outline, Over, Part, Spring, Stroke, Weight, deg, ramp
 from linkage.units import bar, litre, minute, mm
 
 from ..crane import Crane

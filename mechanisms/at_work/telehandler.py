@@ -5,9 +5,11 @@ from __future__ import annotations
 from math import atan2, hypot
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, RIGHT, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Over, Part, Stroke, angle, ramp
+from linkage import LEFT, RIGHT, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Over, Part, Stroke, angle, bar, deg, mm, ramp
 from linkage.loads import LinkMass, LoadCase, Support, Weight
-from linkage.units import bar, deg, mm
+
+FORK = [(0.0, 0.0), (1.2, 0.0), (1.2, -0.04), (-0.06, -0.06), (-0.08, 0.75), (0.0, 0.75)]
+"""The section of the forks, from their heel along them [m]."""
 
 
 class Forks(Mechanism):
@@ -27,7 +29,7 @@ class Forks(Mechanism):
     load = Weight(G, mass=3000.0)
     ram = Cylinder(Q, W, bore=125 * mm, rod=70 * mm, works="both", closed=0.86, stroke=0.39)
     line = LiftCircuit(ram, pressure=240 * bar, relief=260 * bar)
-    shape = Outline([(0.0, 0.0), (1.2, 0.0), (1.2, -0.04), (-0.06, -0.06), (-0.08, 0.75), (0.0, 0.75)], on=(F, X))
+    shape = Outline(FORK, on=(F, X))
 
 
 class Telehandler(Mechanism):

@@ -5,8 +5,7 @@ from __future__ import annotations
 from math import dist, hypot
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import Featured, Ground, Link, LoadCase, Mechanism, Outline, Over, Pin, Stroke, Weight, angle
-from linkage.units import bar, deg, litre, minute, mm
+from linkage import Featured, Ground, Link, LoadCase, Mechanism, Outline, Over, Pin, Stroke, Weight, angle, bar, deg, litre, minute, mm
 
 PIN, LOAD = (1.60, -0.10), (1.70, 0.55)
 """Where the scissor's pin and the load stand in the body that lies flat, from its hinge [m]."""

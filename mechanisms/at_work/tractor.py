@@ -6,8 +6,7 @@ Both tools, what they weigh, the draught and the grip of the ground are illustra
 
 from __future__ import annotations
 
-from linkage import Featured, Force, Ground, Link, LinkMass, LoadCase, Mechanism, Outline, Over, Part, Stroke, Support, Weight
-from linkage.units import deg, kN, mm
+from linkage import Featured, Force, Ground, Link, LinkMass, LoadCase, Mechanism, Outline, Over, Part, Stroke, Support, Weight, deg, kN, mm
 
 from ..three_point_hitch import ThreePointHitch
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import Dimension, Featured, Force, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, deg, y
-from linkage.units import bar, kN, litre, minute, mm
+from linkage import Dimension, Featured, Force, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, bar, deg, kN, litre, minute, mm, y
 
 
 class TogglePress(Mechanism):

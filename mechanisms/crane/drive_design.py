@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkage import DefinitionError, Mechanism, StudyError, at, integral, least, most, optimise, ratio, ref, x, y
+from linkage import DefinitionError, Mechanism, StudyError, at, deg, integral, kN, least, mm, most, optimise, ratio, ref, x, y
 from linkage.checks import require_number
 from linkage.errors import cited, ensure, one_word
 from linkage.frozen import immutable
@@ -22,7 +22,6 @@ from linkage.numeric.quadrature import quadrature
 from linkage.program import FloatArray
 from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
-from linkage.units import deg, kN, mm
 
 from .drives import AngledBellCrankArmDrive, ArmDrive, BoomDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
 from .duty import DriveCylinders, DriveDuty, clipped

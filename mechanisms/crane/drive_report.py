@@ -5,18 +5,18 @@ Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
-from linkage import Column, DefinitionError, Featured, Motion, least, most, ratio
+from linkage import Column, DefinitionError, Featured, Motion, Verdict, least, most, ratio
 from linkage.errors import ensure
 from linkage.language import noted, said, translated
 from linkage.motion import Answer, MotionFunction
 from linkage.program import FloatArray
 from linkage.units import show
-from linkage.verdict import Verdict
 
 from ..paper import answers_over
 
@@ -59,9 +59,8 @@ FOLDING = Movement(noted("folding"), lambda motion: -moment_given(motion, "folds
 OPENING = Movement(noted("opening"), lambda motion: moment_given(motion, "opens"), lambda motion: motion["M_l2"])
 
 
-def movements_of(motion: Motion) -> tuple[Movement, ...]:
-    """Return the movements that the drive of a motion is for; DefinitionError for another machine."""
-    return (LIFTING,) if angle_of(motion) == "phi" else (FOLDING, OPENING)
+MOVEMENTS: Mapping[str, tuple[Movement, ...]] = MappingProxyType({"phi": (LIFTING,), "psi": (FOLDING, OPENING)})
+"""The movements that a drive is for, by the stroke that its joint turns by."""
 
 
 def drive_columns(motion: Motion) -> list[Column]:
@@ -69,16 +68,17 @@ def drive_columns(motion: Motion) -> list[Column]:
     angle = angle_of(motion)
     found = [Column(angle, motion.strokes[angle], "deg", 2, angle), Column(noted("length"), motion["length"], "mm", 1, "length")]
     found.append(Column(noted("lever"), np.abs(motion.ratio("length")), "mm", 1, np.abs(ratio("length"))))
-    for each in movements_of(motion):
+    for each in MOVEMENTS[angle]:
         asked, given = each.asked(motion), each.given(motion)
         moments = {noted("asked"): asked, noted("given"): given, noted("over"): given - asked}
         found += [Column(f"{each.name}: {what}", values, "kNm", 2) for what, values in moments.items()]
     return found
 
 
-def featured_drive(*movements: str) -> Featured:
-    """Return a drive's features: its surplus of moment in each movement, which may not fall below zero."""
-    return Featured(f"{movements[0]}: over", (), {f"{name}: over": (0.0, said("too weak"), "below") for name in movements})
+def featured_drive(joint: str) -> Featured:
+    """Return a drive's features: its surplus of moment in each movement of a joint, which may not fall below zero."""
+    over = [f"{each.name}: over" for each in MOVEMENTS[joint]]
+    return Featured(over[0], (), {name: (0.0, said("too weak"), "below") for name in over})
 
 
 @dataclass(frozen=True)
@@ -116,7 +116,7 @@ def worst_movements(motion: Motion) -> list[WorstMovement]:
     """Return the worst of every movement over a motion of one design, looked for between its poses too."""
     ensure(not motion._design_shape, f"A drive is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
     found = []
-    for each in movements_of(motion):
+    for each in MOVEMENTS[angle_of(motion)]:
         surplus = MotionFunction(each.surplus)
         low, high, asked = answers_over(motion, [least(surplus), most(surplus), most(MotionFunction(each.asked))])
         found.append(WorstMovement(each, low, high, float(asked.value)))

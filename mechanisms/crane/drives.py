@@ -5,32 +5,25 @@ Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse 
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, RIGHT, Column, CosineAngle, Crank, Dyad, Featured, Ground, Mechanism, Motion, OnLink, Over
+from linkage import LEFT, RIGHT, Column, CosineAngle, Crank, Dyad, Featured, Ground, Mechanism, Motion, MPa, OnLink, Over, Verdict, deg, mm
 from linkage.loads import LoadCase, Moment
 from linkage.quantities import Dimension, Function, Quantity, Stroke, angle, distance, ref
 from linkage.steps import Point
-from linkage.units import MPa, deg, mm
-from linkage.verdict import Verdict
 
 from .drive_report import drive_columns, drive_verdicts, featured_drive
 from .duty import clipped
 
 
-class BoomDrive(Mechanism):
-    """Cylinder AB from the column's pin A = (r_1, -r_2) to the boom's pin B, r_3 along the boom and r_4 below its axis.
+class Drive(Mechanism):
+    """The base of drives: their cylinder, its pressure and its efficiency."""
 
-    O is the boom's hinge. phi is the boom's angle from the upward vertical, as in the source: 0 up, 90 deg level; the cylinder grows
-    while phi falls. M_l is the bound of moments (2.19) to (2.21) by its coefficients: K_B of sin(phi) for the boom itself, K_A of the
-    arm, which lies level while phi is below psi_k - 90 deg and cannot rise so far beyond. What the cylinder balances is
-    M_g = F p n h (2.29), h = -d(AB)/d(phi) its lever. The cylinder is S + f_0 + f_1 D long closed, (2.36).
-    """
-
-    phi = Stroke(15 * deg, 99.9262455066517 * deg)
+    joint: ClassVar[str]
+    """The stroke that its joint turns by."""
 
     D = Dimension(125 * mm, unit="mm")  # bore
     d = Dimension(70 * mm, unit="mm")  # rod
@@ -40,7 +33,48 @@ class BoomDrive(Mechanism):
     f_0 = Dimension(200 * mm, unit="mm")  # closed length less stroke, for a bore of zero
     f_1 = Dimension(1.6)  # and by how much of the bore it grows
     l = S + f_0 + f_1 * D  # length of the closed cylinder
-    lifts = 0.25 * np.pi * p * n * D**2  # what it gives, F p n, N
+
+    def working(self, count: int = 101) -> Motion:
+        """Return the motion over the range that it works in, at `count` poses.
+
+        Parameters
+        ----------
+        count : int, optional
+            The number of poses.
+
+        Returns
+        -------
+        Motion
+            The motion.
+        """
+        strokes: dict[str, Any] = {self.joint: np.linspace(self[f"{self.joint}_0"], self[f"{self.joint}_k"], count)}
+        return self.at(**strokes)
+
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return angle, length, lever, and the moments asked for and given; of a drive by its cylinder all it has."""
+        return drive_columns(motion) if self.joint in motion.strokes else super().columns(motion)
+
+    def featured(self) -> Featured:
+        """Return the drive's surplus of moment in each movement, which may not fall below zero; else its angle."""
+        return featured_drive(self.joint) if self.joint in self.strokes else Featured(self.joint, ["T"])
+
+    def rules(self, motion: Motion) -> list[Verdict]:
+        """Return whether the drive carries what turns over a motion that its angle drives."""
+        return drive_verdicts(motion) if self.joint in motion.strokes else []
+
+
+class BoomDrive(Drive):
+    """Cylinder AB from the column's pin A = (r_1, -r_2) to the boom's pin B, r_3 along the boom and r_4 below its axis.
+
+    O is the boom's hinge. phi is the boom's angle from the upward vertical, as in the source: 0 up, 90 deg level; the cylinder grows
+    while phi falls. M_l is the bound of moments (2.19) to (2.21) by its coefficients: K_B of sin(phi) for the boom itself, K_A of the
+    arm, which lies level while phi is below psi_k - 90 deg and cannot rise so far beyond. What the cylinder balances is
+    M_g = F p n h (2.29), h = -d(AB)/d(phi) its lever. The cylinder is S + f_0 + f_1 D long closed, (2.36).
+    """
+
+    joint: ClassVar[str] = "phi"
+    phi = Stroke(15 * deg, 99.9262455066517 * deg)
+    lifts = 0.25 * np.pi * ref("p") * ref("n") * ref("D") ** 2  # what it gives, F p n, N
 
     r_1 = Dimension(0.2618294, unit="mm")
     r_2 = Dimension(1.6706883884436237, unit="mm")
@@ -64,41 +98,18 @@ class BoomDrive(Mechanism):
     M_l = K_B * np.sin(phi) + K_A * np.sin(psi_k - clipped(phi, psi_k - 90 * deg))
 
     load = Moment("O P", M=-M_l)  # it turns the boom down, clockwise
-    lift = Cylinder(A, B, bore=D, rod=d, closed=l, stroke=S)
-    circuit = LiftCircuit(lift, pressure=p, mechanical_efficiency=n)
+    lift = Cylinder(A, B, bore="D", rod="d", closed="l", stroke="S")
+    circuit = LiftCircuit(lift, pressure="p", mechanical_efficiency="n")
     raising = Over(phi=("phi_0", "phi_k"))
 
-    def working(self, count: int = 101) -> Motion:
-        """Return the motion from phi_0 to phi_k, at `count` poses.
-
-        Parameters
-        ----------
-        count : int, optional
-            The number of poses.
-
-        Returns
-        -------
-        Motion
-            The motion.
-        """
-        return self.at(phi=np.linspace(self["phi_0"], self["phi_k"], count))
-
     def columns(self, motion: Motion) -> list[Column]:
-        """Return angle, length, lever, and the moments asked for and given."""
+        """Return angle, length, lever, and the moments asked for and given; what its cylinder has is among them."""
         return drive_columns(motion)
-
-    def featured(self) -> Featured:
-        """Return the drive's surplus of moment, which may not fall below zero."""
-        return featured_drive("lifting")
-
-    def rules(self, motion: Motion) -> list[Verdict]:
-        """Return whether the drive carries the boom over a motion."""
-        return drive_verdicts(motion)
 
 
 # -- the arm's -------------------------------------------------------------------------------------------------
 
-class DrivenArm(Mechanism):
+class DrivenArm(Drive):
     """An arm PT on the boom, the required moments about its hinge P, and the cylinder of its drive.
 
     Drawn on the boom: x leads towards its end, y away from the side that the arm folds to. psi is the angle between boom and arm. It is
@@ -107,19 +118,15 @@ class DrivenArm(Mechanism):
     `opens` are the forces that the cylinder then gives, F p n, positive where it pushes.
     """
 
+    joint: ClassVar[str] = "psi"
     opens_by_piston: ClassVar[bool] = False  # the side of its cylinder that opens the arm
     psi: Quantity = Stroke(0.0, 180 * deg)
 
     D = Dimension(140 * mm, unit="mm")  # bore
     d = Dimension(80 * mm, unit="mm")  # rod
     S = Dimension(0.926744269401061, unit="mm")  # stroke of the cylinder
-    p = Dimension(22 * MPa, unit="bar")  # gauge
-    n = Dimension(0.95)  # efficiency
-    f_0 = Dimension(200 * mm, unit="mm")  # closed length less stroke, for a bore of zero
-    f_1 = Dimension(1.6)  # and by how much of the bore it grows
-    l = S + f_0 + f_1 * D  # length of the closed cylinder
-    push = 0.25 * np.pi * p * n * D**2  # what its sides give, N
-    pull = 0.25 * np.pi * p * n * (D**2 - d**2)
+    push = 0.25 * np.pi * ref("p") * ref("n") * D**2  # what its sides give, N
+    pull = 0.25 * np.pi * ref("p") * ref("n") * (D**2 - d**2)
 
     wall = Dimension(5 * mm, unit="mm")  # of the barrel
     head = Dimension(20 * mm, unit="mm")  # thickness of its end
@@ -152,33 +159,6 @@ class DrivenArm(Mechanism):
     case_1 = LoadCase("telescope in", only=[outward])
     case_2 = LoadCase("telescope out", only=[inward])
     unfolding = Over(psi=("psi_0", "psi_k"), cases=["case_1", "case_2"])  # one moment at a time, (2.39)
-
-    def working(self, count: int = 101) -> Motion:
-        """Return the motion from psi_0 to psi_k, at `count` poses.
-
-        Parameters
-        ----------
-        count : int, optional
-            The number of poses.
-
-        Returns
-        -------
-        Motion
-            The motion.
-        """
-        return self.at(psi=np.linspace(self["psi_0"], self["psi_k"], count))
-
-    def columns(self, motion: Motion) -> list[Column]:
-        """Return angle, length, lever, and the moments asked for and given, folding and opening; of a drive by its cylinder all it has."""
-        return drive_columns(motion) if "psi" in motion.strokes else super().columns(motion)
-
-    def featured(self) -> Featured:
-        """Return the drive's surplus of moment, folding and opening, which may not fall below zero; else its angle."""
-        return featured_drive("folding", "opening") if "psi" in self.strokes else Featured("psi", ["T"])
-
-    def rules(self, motion: Motion) -> list[Verdict]:
-        """Return whether the drive carries the arm over a motion that its angle drives."""
-        return drive_verdicts(motion) if "psi" in motion.strokes else []
 
 
 class ArmDrive(DrivenArm):
@@ -222,7 +202,7 @@ class ArmDriveByCylinder(ArmDrive):
     """The same drive, driven by its cylinder: k from 1, out, to 0, drawn in; psi follows."""
 
     k = Stroke(1.0, 0.0)
-    L = Dyad("C", "O", CL=ref("l") + k * ref("S"), OL="r_1", side=LEFT)
+    L: Point = Dyad("C", "O", CL=ref("l") + k * ref("S"), OL="r_1", side=LEFT)
     N = Dyad(L, "P", NL="r_2", PN="r_3", side=LEFT)
     T = OnLink("P", N, PT="l_p", NPT=ref("psi_0") - ref("alpha_20") - 180 * deg)
     alpha_2 = angle("P", N)
@@ -259,17 +239,11 @@ class BellCrankArmDrive(ArmDrive):
     fold = Cylinder("C", Z, bore="D", rod="d", works="both", closed="l", stroke="S")
 
 
-class BellCrankArmDriveByCylinder(BellCrankArmDrive):
+class BellCrankArmDriveByCylinder(ArmDriveByCylinder, BellCrankArmDrive):
     """The same drive, driven by its cylinder: k from 1, out, to 0, drawn in; psi follows."""
 
-    k = Stroke(1.0, 0.0)
-    Z = Dyad("C", "O", CZ=ref("l") + k * ref("S"), OZ="r_8", side=LEFT)
+    Z = Dyad("C", "O", CZ=ref("l") + ref("k") * ref("S"), OZ="r_8", side=LEFT)
     L = OnLink("O", Z, OL="r_1", ZL="r_7", side=RIGHT)
-    N = Dyad(L, "P", NL="r_2", PN="r_3", side=LEFT)
-    T = OnLink("P", N, PT="l_p", NPT=ref("psi_0") - ref("alpha_20") - 180 * deg)
-    alpha_2 = angle("P", N)
-    psi = alpha_2 - ref("alpha_20") + ref("psi_0")
-    unfolding = Over(cases=["case_1", "case_2"])
 
 
 class AngledBellCrankArmDrive(BellCrankArmDrive):
@@ -302,10 +276,10 @@ class DirectArmDrive(DrivenArm):
     A = Ground(-r_2, -r_1)
     B = OnLink("P", "T", PB=np.sqrt(r_3**2 + r_4**2), TPB=-Function("arctan2", r_4, r_3))
 
-    length = distance(A, B)
+    length = distance("A", "B")
 
     folds, opens = -ref("pull"), ref("push")
-    fold = Cylinder(A, B, bore="D", rod="d", works="both", closed="l", stroke="S")
+    fold = Cylinder("A", "B", bore="D", rod="d", works="both", closed="l", stroke="S")
     circuit = LiftCircuit(fold, pressure="p", mechanical_efficiency="n")
 
 
@@ -326,6 +300,4 @@ class DirectArmDriveAbove(DirectArmDrive):
 
     A = Ground(-ref("r_2"), "r_1")
     B = OnLink("P", "T", PB=np.sqrt(ref("r_3") ** 2 + ref("r_4") ** 2), TPB=Function("arctan2", ref("r_4"), ref("r_3")))
-    length = distance(A, B)
     folds, opens = ref("push"), -ref("pull")
-    fold = Cylinder(A, B, bore="D", rod="d", works="both", closed="l", stroke="S")

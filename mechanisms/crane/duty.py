@@ -16,13 +16,12 @@ from numpy.typing import ArrayLike
 
 from hydraulics import CylinderSize
 from hydraulics.inputs import efficient, in_pascals, not_negative, one_number, positive
-from linkage import DefinitionError, drive_force
+from linkage import DefinitionError, MPa, deg, drive_force, kN, mm
 from linkage.errors import ensure
 from linkage.numeric.line import Index, highest
 from linkage.plan import Mask
 from linkage.program import FloatArray
 from linkage.quantities import Function, Operand, Quantity, quantity
-from linkage.units import MPa, deg, kN, mm
 
 from ..paper import hold_numbers
 from .skeleton import AT_ARM, AT_BOOM, AT_DRIVE, GRAVITY, JOINT, OF_DRIVE, CraneSkeleton

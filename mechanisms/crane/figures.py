@@ -12,16 +12,14 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from linkage import Motion, draw, plot
-from linkage.motion import Answer
+from linkage import Answer, Motion, deg, draw, kN, plot
 from linkage.pictures import style
 from linkage.pictures.force_arrows import ForceQuestion
 from linkage.pictures.overlays import Overlays
 from linkage.pictures.poses import draw_over
 from linkage.pictures.sheet import sheet
-from linkage.units import deg, kN
 
-from ..sheets import CURVES, axis_words, beside, headed, titled
+from ..sheets import CURVES, axis_words, beside, curve, dot, headed, titled
 from .drive_report import Movement, WorstMovement, angle_of, worst_movements
 from .drives import BoomDrive, DrivenArm
 from .flow import arm_drive_of, boom_drive_of
@@ -82,12 +80,7 @@ def surroundings(ax: Axes, crane: CraneSkeleton) -> None:
 def crane_moments(crane: Crane) -> Figure:
     """Return the moments of boom and arm, from the cylinders and required at worst, over their angles."""
     title = "Moments of boom and arm: given by the cylinder, asked for at worst"
-    page, axes = titled(title, (17.0, 5.4), 3, rect=(0.005, 0.01, 0.985, 0.98), w_pad=0.12, h_pad=0.08)
-    motions = [drive.working(COUNT) for drive in (boom_drive_of(crane), arm_drive_of(crane))]
-    worst = [(motion, each) for motion in motions for each in worst_movements(motion)]
-    for ax, (motion, each) in zip(axes, worst, strict=True):
-        one_movement(ax, motion, each)
-    return page
+    return moments_sheet(title, boom_drive_of(crane), arm_drive_of(crane))
 
 
 def movements(crane: Crane) -> Figure:
@@ -163,11 +156,15 @@ DRAWN: Mapping[str, Callable[[Crane], Figure]] = MappingProxyType(
 
 def drive_moments(drive: BoomDrive | DrivenArm) -> Figure:
     """Return the moment given and the moment asked for over the angle, the band between them, and where it is narrowest and widest."""
-    motion = drive.working(COUNT)
-    worst = worst_movements(motion)
+    return moments_sheet(title_of(drive), drive)
+
+
+def moments_sheet(title: str, *drives: BoomDrive | DrivenArm) -> Figure:
+    """Return the moments of all movements of some drives, a panel each."""
+    worst = [(motion, each) for motion in (drive.working(COUNT) for drive in drives) for each in worst_movements(motion)]
     shape = 5.6 * len(worst) + 0.6, 5.2
-    page, cells = titled(title_of(drive), shape, len(worst), rect=(0.005, 0.01, 0.98, 0.98), w_pad=0.12, h_pad=0.08)
-    for ax, each in zip(cells, worst, strict=True):
+    page, cells = titled(title, shape, len(worst), rect=(0.005, 0.01, 0.98, 0.98), w_pad=0.12, h_pad=0.08)
+    for ax, (motion, each) in zip(cells, worst, strict=True):
         one_movement(ax, motion, each)
     return page
 
@@ -186,8 +183,8 @@ def one_movement(ax: Axes, motion: Motion, worst: WorstMovement) -> None:
     if worst.short:
         ax.fill_between(angle, asked, given, where=given < asked, color=style.ACCENT, alpha=0.35, linewidth=0, zorder=3.0, label="missing")
     index = {"lifting": "", "folding": "1", "opening": "2"}[movement.name]
-    ax.plot(angle, given, color=style.CURVE, linewidth=2.0, zorder=6.0, label=f"given, $M_{{g{index}}}$")
-    ax.plot(angle, asked, color=style.INK, linewidth=2.0, zorder=6.0, label=f"asked, $M_{{l{index}}}$")
+    curve(ax, angle, given, style.CURVE, f"given, $M_{{g{index}}}$")
+    curve(ax, angle, asked, style.INK, f"asked, $M_{{l{index}}}$")
     ax.set(xlim=(angle.min(), angle.max()), ylim=(min(0.0, float(given.min())), 1.18 * float(max(given.max(), asked.max()))))
     marked(ax, motion, movement, worst.least, "least")
     if worst.most.value > 0.0:
@@ -205,13 +202,13 @@ def marked(ax: Axes, motion: Motion, movement: Movement, found: Answer, word: st
     at, asked, given = (float(each) for each in (found.strokes[name] / deg, movement.asked(there) / kN, movement.given(there) / kN))
     colour = style.CURVE if above else style.ACCENT
     ax.plot([at, at], [asked, given], color=colour, linewidth=1.2, zorder=7.0)
-    ax.plot([at, at], [asked, given], "o", color=colour, markersize=5, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
+    dot(ax, [at, at], [asked, given], colour, 5.0)
     (low, high), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     place = (at - low) / (high - low)
     side = "left" if place < AT_EDGE else "right" if place > 1.0 - AT_EDGE else "center"
-    curve = (movement.given if above else movement.asked)(motion) / kN
+    moment = (movement.given if above else movement.asked)(motion) / kN
     angle = motion.strokes[name] / deg
-    rise = np.abs(curve - np.interp(at, angle, curve))[np.abs(angle - at) < AT_EDGE * (high - low)]
+    rise = np.abs(moment - np.interp(at, angle, moment))[np.abs(angle - at) < AT_EDGE * (high - low)]
     off = 8.0 + PANEL * float(rise.max(initial=0.0)) / (top - bottom)
     aside = {"left": 4.0, "right": -4.0}.get(side, 0.0)
     text, end = f"{word} {float(found.value) / kN:z.1f} kNm\nat {at:.1f}°", max(asked, given) if above else min(asked, given)

@@ -10,10 +10,9 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
-from linkage import DefinitionError, least, optimise, ref
+from linkage import DefinitionError, deg, least, optimise, ref
 from linkage.frozen import immutable
 from linkage.study import Optimum
-from linkage.units import deg
 
 from .drive_design import DriveDesign, design_arm_drive, design_boom_drive
 from .drives import ArmDrive, BellCrankArmDrive, BoomDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm

@@ -12,14 +12,13 @@ from numpy.typing import ArrayLike
 
 from hydraulics import Cylinder
 from hydraulics.inputs import one_number, positive
-from linkage import Force, ForceElement, LoadCase, PinForces, WorkingField, distance, drive_force, pin_forces, ratio, working_field
+from linkage import Force, ForceElement, LoadCase, PinForces, WorkingField, distance, drive_force, mm, pin_forces, ratio, working_field
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.loads.point import on_slope
 from linkage.motion import Motion, last_holding
 from linkage.program import FloatArray
 from linkage.study.checks import check_one_design
 from linkage.study.reach import Reach
-from linkage.units import mm
 
 from .duty import LIFTING
 from .machine import DRIVEN, Crane

@@ -13,9 +13,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, Dimension, Dyad, Ground, Link, OnLink, Over, Rope, Stroke, ref
+from linkage import LEFT, Dimension, Dyad, Ground, Link, MPa, OnLink, Over, Rope, Stroke, deg, mm, ref
 from linkage.quantities import Function
-from linkage.units import MPa, deg, mm
 
 from .skeleton import CraneSkeleton
 

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from linkage import Column, Crank, DefinitionError, Dimension, Ground, Link, Mechanism, Motion, OnLink, Outline, Stroke, angle, ref
+from linkage import Column, Crank, DefinitionError, Dimension, Ground, Link, Mechanism, Motion, OnLink, Outline, Stroke, Verdict, angle, ref
 from linkage.checks import require
 from linkage.errors import cited, ensure
 from linkage.language import noted, said, translated
@@ -20,7 +20,6 @@ from linkage.loads import LinkMass, LoadCase, Weight
 from linkage.motion import Featured
 from linkage.program import FloatArray
 from linkage.units import deg, kN, mm, show
-from linkage.verdict import Verdict
 
 GRAVITY = 9.81
 """m/s2, the source's."""

@@ -20,7 +20,7 @@ import numpy as np
 
 from hydraulics import CylinderSize, reserve
 from hydraulics.inputs import efficient, in_pascals, one_number, positive
-from linkage import DefinitionError, Stroke, StudyError, at, least, most, optimise, ratio, ref, x, y
+from linkage import DefinitionError, MPa, Stroke, StudyError, at, deg, least, mm, most, optimise, ratio, ref, x, y
 from linkage.checks import require, require_type
 from linkage.errors import ensure, one_word
 from linkage.frozen import refuses_changes
@@ -28,7 +28,6 @@ from linkage.motion import Request
 from linkage.program import FloatArray
 from linkage.quantities import Quantity, quantity
 from linkage.study import Optimum
-from linkage.units import MPa, deg, mm
 
 from ..paper import hold_numbers
 from .machine import Grapple, InnerGrapple

@@ -15,12 +15,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
 from hydraulics import Cylinder
-from linkage import Motion, ref
+from linkage import Motion, deg, mm, ref
 from linkage.pictures import style
 from linkage.program import FloatArray
-from linkage.units import deg, mm
 
-from ..sheets import CURVES, axis_words, beside, headed, titled
+from ..sheets import CURVES, axis_words, beside, curve, dot, headed, titled
 from .machine import Grapple
 from .report import GrappleState, gripping, moment_ratio, require_placed, travelling
 
@@ -180,13 +179,13 @@ def moments(grapple: Grapple) -> Figure:
     page, (above, below) = titled(title, (8.4, 7.2), 1, 2, rect=(0.005, 0.005, 0.985, 0.985), h_pad=0.08)
     D = state.D / mm
     above.fill_between(D, state.needed / 1e3, state.given / 1e3, color=style.CURVE, alpha=0.12, linewidth=0)
-    above.plot(D, state.given / 1e3, color=style.CURVE, linewidth=2.0, label="M_g, what the lever gives")
-    above.plot(D, state.needed / 1e3, color=style.ACCENT, linewidth=2.0, label="M_1, what the stem needs")
+    curve(above, D, state.given / 1e3, style.CURVE, "M_g, what the lever gives")
+    curve(above, D, state.needed / 1e3, style.ACCENT, "M_1, what the stem needs")
     above.set_ylim(0.0, None)
     above.legend(loc="upper left", **CURVES)
     for ax in (above, below):
         ax.set_xlim(float(D.min()), float(D.max()))
-    below.plot(D, ratio, color=style.INK, linewidth=2.0)
+    curve(below, D, ratio, style.INK)
     below.axhline(1.0, color=style.ACCENT, linewidth=1.2, linestyle="--")
     below.set_ylim(min(0.9, 0.95 * float(ratio.min())), None)
     for place, word in ((int(np.argmin(ratio)), "least"), (int(np.argmax(ratio)), "greatest")):
@@ -200,7 +199,7 @@ def _mark(ax: Axes, D: float, ratio: float, text: str) -> None:
     low, high = ax.get_xlim()
     share = (D - low) / (high - low)
     side, aside = ("left", 9) if share < 0.2 else ("right", -9) if share > 0.8 else ("center", 0)
-    ax.plot(D, ratio, "o", color=style.INK, markersize=7, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
+    dot(ax, D, ratio, style.INK)
     beside(ax, text, (D, ratio), (aside, -18), ha=side, color=style.INK, zorder=8.0)
 
 

@@ -8,12 +8,11 @@ import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
-from linkage import RIGHT, Column, Crank, Dyad, Featured, Ground, Guide, Mechanism, Motion, OnLink, Outline, Over, SliderDyad
+from linkage import RIGHT, Column, Crank, Dyad, Featured, Ground, Guide, Mechanism, Motion, MPa, OnLink, Outline, Over, SliderDyad, deg, mm
 from linkage.errors import DefinitionError
 from linkage.language import said
 from linkage.loads import Force, LoadCase
 from linkage.quantities import Dimension, Quantity, Stroke, distance, ref, x, y
-from linkage.units import MPa, deg, mm
 from linkage.verdict import Verdict
 
 from .report import crosshead_verdicts, grapple_columns, grapple_verdicts

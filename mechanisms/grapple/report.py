@@ -8,14 +8,13 @@ from functools import cached_property
 import numpy as np
 
 from hydraulics import LiftCircuit
-from linkage import Column, DefinitionError, Force, Motion, least, most, pin_force, ratio, ref
+from linkage import Column, DefinitionError, Force, Motion, Verdict, least, most, pin_force, ratio, ref
 from linkage.checks import require_whole
 from linkage.errors import ensure
 from linkage.language import said
 from linkage.motion import Answer, MotionFunction, require_motion
 from linkage.program import FloatArray
 from linkage.units import show, shown_number
-from linkage.verdict import Verdict
 
 from ..paper import answers_over
 

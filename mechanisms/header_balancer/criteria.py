@@ -12,7 +12,7 @@ from types import MappingProxyType
 import numpy as np
 
 from hydraulics import CylinderSize, Gas, adiabatic, isothermal, standard_bores
-from linkage import DefinitionError, Motion, least
+from linkage import DefinitionError, Motion, Verdict, least
 from linkage.checks import require_number
 from linkage.errors import ensure
 from linkage.language import noted, said, translated, with_and
@@ -21,9 +21,8 @@ from linkage.motion.grid import recalled
 from linkage.plan import Mask
 from linkage.program import FloatArray
 from linkage.units import deg, kgf_cm2, mm, show, shown_number, unit_sign
-from linkage.verdict import Verdict
 
-from .following import PLAIN, HeaderState, at_horizon, kgf_cm2_text, over_following, relief
+from .following import PLAIN, HeaderState, at_horizon, height_at, kgf_cm2_text, over_following, relief
 
 
 def _header(mass: float, charge: float, L_OR: float, BOR: float, OG2: float, BOG2: float) -> Mapping[str, float]:
@@ -334,10 +333,7 @@ def vessels(balance: HeaderState) -> Verdict:
     line, height = slow(motion), balance.height
     says, slope = [], abs(float((line[-1] - line[0]) / (height[-1] - height[0])))
     softer = said("{pressure} for {way} of the shoe", pressure=show(slope * 10 * mm, "kgf/cm2", ".2f"), way=show(10 * mm, "mm", ".0f"))
-    for each in block.accumulators:
-        gas, volume = float(np.max(each.charge)), float(np.max(each.volume))
-        if volume <= 0.0:
-            continue
+    for gas, volume in balance.vessels:
         name = said("the {charge} pair ({volume})", charge=show(gas, "kgf/cm2", 4), volume=show(volume, "l", 4))
         works = below_zero(motion, lambda at, gas=gas: gas - slow(at))  # type: ignore[misc]
         if not works:
@@ -345,7 +341,7 @@ def vessels(balance: HeaderState) -> Verdict:
         elif works[0].start["h"] <= motion.strokes["h"][0] and works[-1].end["h"] >= motion.strokes["h"][-1]:
             says.append(said("{name} is at work over the whole range", name=name))
         else:
-            at = show(float(motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0]), "mm", "+z.0f")
+            at = show(height_at(motion, works[-1].end["h"]), "mm", "+z.0f")
             says.append(said("{name} is at work below R_y = {at} and off above: where it joins the curves have a kink", name=name, at=at))
     return Verdict("accumulators", True, said("at {charge} {words}.", charge=kgf_cm2_text(charge), words="; ".join(says)))
 

@@ -23,17 +23,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from linkage import DefinitionError, Motion
+from linkage import DefinitionError, Motion, kgf, kgf_cm2, litre, mm, reaction
 from linkage.motion import below_zero
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
-from linkage.statics import reaction
-from linkage.units import kgf, kgf_cm2, litre, mm
 
-from ..sheets import WORDS, beside, headed
+from ..sheets import WORDS, beside, curve, dot, headed
 from .criteria import HEADERS
-from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, over_following, own_loads
+from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, height_at, over_following, own_loads
 from .machine import HeaderBalancer, ImprovedBalancer, with_header
 from .measured import ALLOWED, Deviation
 from .scheme import scheme
@@ -121,7 +119,7 @@ def against_measured(ax: Axes, motion: Motion) -> None:
 def _ways(ax: Axes, height: FloatArray, curves: Mapping[str, FloatArray]) -> None:
     """Draw curves by the way of moving [kgf]."""
     for label, values in curves.items():
-        _curve(ax, height, values, COLOURS[label], label)
+        curve(ax, height / mm, values, COLOURS[label], label)
     ax.set_ylabel("reaction of a shoe, kgf")
 
 
@@ -141,7 +139,7 @@ def bearings(ax: Axes, motion: Motion) -> None:
     radius = float(motion.inputs[f"{BEARING}.radius"])
     for label in ("moving up", "moving down"):
         added = (balance.reaction(WAYS[label], PLAIN) - balance.reaction(WAYS[label], 0.0)) / kgf / shoes
-        _curve(ax, balance.height, added, COLOURS[label], label)
+        curve(ax, balance.height / mm, added, COLOURS[label], label)
     ratio = np.divide(*balance.of_bearings)
     ax.axhline(0.0, color=style.MUTED, linewidth=0.8, zorder=2.0)
     says = f"r = {radius / mm:.0f} mm, mu = {PLAIN:g}: hysteresis x{ratio.min():.2f} to x{ratio.max():.2f} of rolling bearings'"
@@ -155,7 +153,7 @@ def bearings(ax: Axes, motion: Motion) -> None:
 def given_pressure(ax: Axes, motion: Motion) -> None:
     """Draw the pressure in the accumulators over the shoe's height, and the charges of the pairs about there."""
     balance = HeaderState(motion)
-    _curve(ax, balance.height, balance.pressure / kgf_cm2, style.CURVE, "in the accumulators")
+    curve(ax, balance.height / mm, balance.pressure / kgf_cm2, style.CURVE, "in the accumulators")
     ax.set_ylabel("pressure, kgf/cm²")
     _charges(ax, balance)
 
@@ -165,7 +163,7 @@ def needed_pressure(ax: Axes, motion: Motion) -> None:
     lowest, end = motion.strokes["h"][0], motion.plan.strokes["h"].end
     balance = HeaderState(motion.moved({"h": np.linspace(lowest, end, 101)}))
     for label in ("moving up", "moving down"):
-        _curve(ax, balance.height, balance.required_while(WAYS[label]) / kgf_cm2, COLOURS[label], label)
+        curve(ax, balance.height / mm, balance.required_while(WAYS[label]) / kgf_cm2, COLOURS[label], label)
     follows = float(motion.inputs["follows"]) / mm
     ax.axvspan(-follows, follows, color=style.CURVE, alpha=0.08, linewidth=0, label="following range")
     for name, pressure in (("pump", motion.inputs["pump"]), ("relief valve", motion.inputs["valve"])):
@@ -179,7 +177,7 @@ def both_pressures(ax: Axes, motion: Motion) -> None:
     up, down = (balance.required_while(way) / kgf_cm2 for way in ("extending", "retracting"))
     text = "with friction: up at the upper edge, down at the lower"
     ax.fill_between(balance.height / mm, down, up, color=style.ACCENT, alpha=0.12, linewidth=0, label=text)
-    _curve(ax, balance.height, balance.required / kgf_cm2, style.ACCENT, "needed: the shoes carry nothing")
+    curve(ax, balance.height / mm, balance.required / kgf_cm2, style.ACCENT, "needed: the shoes carry nothing")
     given_pressure(ax, motion)
     ax.margins(y=0.14)  # room for the legend
 
@@ -225,15 +223,14 @@ def _charges(ax: Axes, balance: HeaderState) -> None:
     motion = balance.motion
     shown = np.concatenate([np.asarray(line.get_ydata(), float) for line in ax.get_lines()])
     low, high = float(shown.min()), float(shown.max())
-    for each in balance.circuit.accumulators(motion).accumulators:
-        gas, volume = float(np.max(each.charge)), float(np.max(each.volume))
-        if volume <= 0.0 or not low - 0.2 * (high - low) <= gas / kgf_cm2 <= high + 0.2 * (high - low):
+    for gas, volume in balance.vessels:
+        if not low - 0.2 * (high - low) <= gas / kgf_cm2 <= high + 0.2 * (high - low):
             continue
         _level(ax, gas / kgf_cm2, f"gas charge of a pair ({volume / litre:.4g} l), {gas / kgf_cm2:.4g}: off below")
         works = below_zero(motion, lambda at, gas=gas: gas - HeaderState(at).pressure)  # type: ignore[misc]
         if works and works[-1].end["h"] < motion.strokes["h"][-1]:
-            height = float(motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0]) / mm
-            ax.plot(height, gas / kgf_cm2, "o", color=style.CURVE, markersize=7, markeredgecolor=style.PAPER, zorder=8.0)
+            height = height_at(motion, works[-1].end["h"]) / mm
+            dot(ax, height, gas / kgf_cm2, style.CURVE)
             line = {"arrowstyle": "-", "color": style.CURVE, "linewidth": 0.8}
             text, at = "the pair joins: a kink", (height, gas / kgf_cm2)
             beside(ax, text, at, (-10, -22), ha="right", color=style.CURVE, arrowprops=line)
@@ -266,10 +263,6 @@ def _sheet(titles: Mapping[str, str], name: str) -> tuple[Figure, list[Axes]]:
         ax.set_xlabel("height of the shoe above the horizon, mm", **WORDS)
         ax.yaxis.label.set(**WORDS)
     return sheet, cells
-
-
-def _curve(ax: Axes, height: FloatArray, values: FloatArray, colour: str, label: str) -> None:
-    ax.plot(height / mm, values, color=colour, linewidth=2.0, label=label, zorder=5.0)
 
 
 def _level(ax: Axes, value: float, text: str) -> None:

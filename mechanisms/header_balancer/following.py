@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit, pressure
-from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, most, ratio, ref
+from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, driving_force, most, ratio, reaction, ref
 from linkage.checks import require_number, require_whole
 from linkage.errors import ensure
 from linkage.language import noted
@@ -18,7 +18,6 @@ from linkage.loads.element import Formulas
 from linkage.motion import Answer, MotionFunction, judge_along, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance
-from linkage.statics import driving_force, reaction
 from linkage.units import mm, show
 
 AB = Distance("A", "B")  # one for all, so that its ratio is worked out once
@@ -55,12 +54,17 @@ def stroke_of(motion: Motion, height: float) -> float:
         angles_and_lengths = np.arctan2(y, x), given["L_OB"], given["L_OR"], given["BOR"], given["L_min"]
         h = float(stroke_at(height, given["O.y"], np.hypot(x, y), *angles_and_lengths))
     low, high = sorted((motion.plan.strokes["h"].start, motion.plan.strokes["h"].end))
-    stands = motion.moved({"h": np.array([h])}).y("R")[0] if low <= h <= high else np.nan
+    stands = height_at(motion, h) if low <= h <= high else np.nan
     if not abs(stands - height) < REACHED:
         wide = f"that is at h = {h / mm:.1f} mm, the stroke is {low / mm:.1f} to {high / mm:.1f} mm"
         why = "it never comes there" if np.isnan(h) or low <= h <= high else wide
         raise DefinitionError(f"The shoe cannot be {height / mm:+.0f} mm from the horizon: {why}. Follow less, or change L_min or BOR.")
     return h
+
+
+def height_at(motion: Motion, h: float) -> float:
+    """Return the height [m] at which the shoe of one design stands at a stroke [m]."""
+    return float(motion.moved({"h": np.array([h])}).y("R")[0])
 
 
 def require_header(motion: Motion) -> None:
@@ -147,6 +151,13 @@ class HeaderState:
         found = self.circuit.ram(self.motion)
         assert isinstance(found, Cylinder)
         return found
+
+    @cached_property
+    def vessels(self) -> list[tuple[float, float]]:
+        """The charges [Pa gauge] and volumes [m3] of the accumulators that are there."""
+        each_of = self.circuit.accumulators(self.motion).accumulators
+        found = [(float(np.max(each.charge)), float(np.max(each.volume))) for each in each_of]
+        return [(charge, volume) for charge, volume in found if volume > 0.0]
 
     @cached_property
     def height(self) -> FloatArray:

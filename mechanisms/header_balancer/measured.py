@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from linkage import DefinitionError, FileError, Motion
+from linkage import DefinitionError, FileError, Motion, Verdict
 from linkage.disk import check_name
 from linkage.errors import cited
 from linkage.files.source import measured_columns
@@ -15,7 +15,6 @@ from linkage.frozen import immutable
 from linkage.language import said, said_of
 from linkage.program import FloatArray
 from linkage.units import show
-from linkage.verdict import Verdict
 
 from .following import HeaderState, stroke_of
 

@@ -10,11 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon, Rectangle
 
-from linkage import draw
+from linkage import draw, kgf_cm2, litre
 from linkage.pictures import style
 from linkage.pictures.scene import Scene
 from linkage.pictures.sheet import haloed, sheet
-from linkage.units import kgf_cm2, litre
 
 from ..sheets import beside, headed, titled
 from .machine import HeaderBalancer

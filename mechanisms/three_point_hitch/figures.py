@@ -15,11 +15,10 @@ from matplotlib.figure import Figure
 
 from linkage import Motion, draw
 from linkage.pictures import style
-from linkage.program import FloatArray
 from linkage.reports import closely
 from linkage.units import deg, g0, kN, mm
 
-from ..sheets import CURVES, WORDS, axis_words, beside, headed, titled
+from ..sheets import CURVES, WORDS, axis_words, beside, curve, dot, headed, titled
 from .capacity import admissible, at_hitch_points, behind, capacity, capacity_zone, tilt_zone, weakest
 from .machine import ThreePointHitch
 from .report import largest_mass, tipping_mass
@@ -46,8 +45,8 @@ def zones(hitch: ThreePointHitch) -> Figure:
                 ax.plot(S, edge, color=colour, linewidth=1.3, zorder=4.0 + place)
     ranges = {name: value for name, value in over.items() if isinstance(value, tuple)}
     set_to = ", ".join(f"{name} {hitch[name] / mm:.0f}" for name in ranges)
-    _curve(left, motion.strokes["S"] / mm, capacity(motion) / kN, "INK", f"set to {set_to} mm")
-    _curve(right, motion.strokes["S"] / mm, motion["tilt"] / deg, "INK", f"set to {set_to} mm")
+    curve(left, motion.strokes["S"] / mm, capacity(motion) / kN, style.INK, f"set to {set_to} mm")
+    curve(right, motion.strokes["S"] / mm, motion["tilt"] / deg, style.INK, f"set to {set_to} mm")
     _named(left, "Lifting capacity", "stroke S, mm", "capacity at G, kN")
     _named(right, "Tilt of the upright", "stroke S, mm", "tilt, deg; + leans towards the tractor")
     words = ", ".join(f"{name} {low / mm:.0f} to {high / mm:.0f}" for name, (low, high) in ranges.items())
@@ -66,14 +65,14 @@ def curves(hitch: ThreePointHitch) -> Figure:
     start, end = hitch.strokes["S"].start, hitch.strokes["S"].end
     motion = closely(hitch.at(S=np.linspace(start, end, COUNT), unreachable="nan"))
     S = motion.strokes["S"] / mm
-    _curve(ax, S, capacity(motion) / kN, "CURVE", "at G, full pressure")
-    _curve(ax, S, at_hitch_points(motion) / kN, "PISTON", "at the hitch points F, 90 % of the pressure", "--")
-    _curve(ax, S, behind(motion) / kN, "PISTON", "610 mm behind F, 90 % of the pressure", ":")
-    _curve(ax, S, tipping_mass(motion) * g0 / kN, "ACCENT", "at G, where the tractor tips")
+    curve(ax, S, capacity(motion) / kN, style.CURVE, "at G, full pressure")
+    curve(ax, S, at_hitch_points(motion) / kN, style.PISTON, "at the hitch points F, 90 % of the pressure", "--")
+    curve(ax, S, behind(motion) / kN, style.PISTON, "610 mm behind F, 90 % of the pressure", ":")
+    curve(ax, S, tipping_mass(motion) * g0 / kN, style.ACCENT, "at G, where the tractor tips")
     share = 100 * float(hitch["least_front"])
-    _curve(ax, S, largest_mass(motion) * g0 / kN, "ACCENT", f"at G, with {share:.0f} % of its weight left on the front axle", "--")
+    curve(ax, S, largest_mass(motion) * g0 / kN, style.ACCENT, f"at G, with {share:.0f} % of its weight left on the front axle", "--")
     weight = float(hitch["load.mass"])
-    _curve(ax, S, np.full(S.shape, weight * g0 / kN), "INK", f"the implement, {weight:.0f} kg", "-", 1.2)
+    curve(ax, S, np.full(S.shape, weight * g0 / kN), style.INK, f"the implement, {weight:.0f} kg", "-", 1.2)
     _mark(ax, motion)
     _named(ax, "", "stroke S, mm", "load that can be lifted, kN")
     ax.set_ylim(0.0, None)
@@ -95,7 +94,7 @@ def _mark(ax: Axes, motion: Motion) -> None:
     if found is None:
         return
     at = found.stroke / mm, found.capacity / kN
-    ax.plot(*at, "o", color=style.CURVE, markersize=8, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
+    dot(ax, *at, style.CURVE, 8.0)
     right = found.stroke / mm > np.mean(ax.get_xlim())
     text = f"weakest: {found.capacity / kN:.1f} kN at S = {found.stroke / mm:.0f} mm,\nG rises {found.ratio:.2f} mm for 1 mm of stroke"
     side, aside = ("right", -8) if right else ("left", 8)
@@ -131,12 +130,8 @@ def _sheet(count: int, title: str) -> tuple[Figure, list[Axes]]:
     return titled(title, size, count, rect=(0.005, below, 0.98, 0.985 - below), w_pad=0.08, h_pad=0.08)
 
 
-def _curve(ax: Axes, along: FloatArray, values: FloatArray, colour: str, text: str, line: str = "-", width: float = 2.0) -> None:
-    ax.plot(along, values, color=getattr(style, colour), linewidth=width, linestyle=line, label=text, zorder=6.0)
-    ax.set_xlim(float(along.min()), float(along.max()))
-
-
 def _named(ax: Axes, title: str, along: str, value: str) -> None:
+    ax.margins(x=0.0)
     if title:
         headed(ax, title, fontsize=style.TITLE, fontweight="bold", pad=9)
         ax.legend(loc="best", **CURVES)

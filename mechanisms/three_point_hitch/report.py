@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from linkage import Column, ForceElement, Mechanism, Motion, least, most, pin_forces
+from linkage import Column, ForceElement, Mechanism, Motion, Verdict, least, most, pin_forces
 from linkage.language import noted, said, with_and
 from linkage.loads import Case
 from linkage.motion import Judge, MotionFunction, below_zero, judge_along
 from linkage.program import FloatArray
 from linkage.units import g0, show, shown_number
-from linkage.verdict import Verdict
 
 from .capacity import BEHIND, SHARE, at_hitch_points, behind, capacity, circuit_of, lifted, mast_words, own_loads, weakest
 

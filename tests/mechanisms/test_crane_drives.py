@@ -11,7 +11,7 @@ from linkage.motion import lowest
 from linkage.study import Target, settings_for
 from mechanisms.crane import drive_figure
 from mechanisms.crane.drive_design import ArmRules, arm_drive_front, design_arm_drive, design_boom_drive
-from mechanisms.crane.drive_report import OPENING, movements_of
+from mechanisms.crane.drive_report import MOVEMENTS, OPENING, angle_of
 from mechanisms.crane.drives import (
     AngledBellCrankArmDrive,
     ArmDrive,
@@ -238,7 +238,7 @@ def test_moments_are_those_of_the_cylinder_in_equilibrium(machine):
     drive = machine()
     motion = drive.working(5)
     cases = {"folding": "case_1", "opening": "case_2", "lifting": None}
-    for movement in movements_of(motion):
+    for movement in MOVEMENTS[angle_of(motion)]:
         with np.errstate(divide="ignore", invalid="ignore"):
             expected = movement.given(motion) / movement.asked(motion)
         found = drive.circuit.reserve(motion, case=cases[movement.name])
@@ -619,7 +619,7 @@ def test_an_arm_is_asked_for_one_moment_at_a_time(machine):
     drive = machine()
     motion = drive.working(4001)
     shares = []
-    for each in movements_of(motion):
+    for each in MOVEMENTS[angle_of(motion)]:
         asked = each.asked(motion)
         shares.append(np.min(each.given(motion)[asked > 1.0] / asked[asked > 1.0]))
     (found,) = (each.answer for each in told_by(drive, "circuit") if each.rule == "lifting")

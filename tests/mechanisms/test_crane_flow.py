@@ -36,7 +36,7 @@ from mechanisms.crane import (
     strength,
     with_drives,
 )
-from mechanisms.crane.drive_report import movements_of
+from mechanisms.crane.drive_report import MOVEMENTS
 from mechanisms.crane.load_map import dragging
 from tests.for_all import first_daily
 
@@ -94,7 +94,7 @@ def test_drives_on_their_own_are_those_of_the_crane(machine):
     assert_allclose(boom.at(phi=phi)["length"], crane.at(phi=phi, psi=1.0, t=0.0).distance("A", "B"), rtol=1e-12)
     ends = machine.fold.ends
     assert_allclose(arm.at(psi=psi)["length"], crane.at(phi=1.0, psi=psi, t=0.0).distance(*ends), rtol=1e-12)
-    given = {each.name: each.given(arm.at(psi=psi)) for each in movements_of(arm.at(psi=psi))}
+    given = {each.name: each.given(arm.at(psi=psi)) for each in MOVEMENTS["psi"]}
     assert_allclose(arm_moment(crane, psi), (-given["folding"], given["opening"]), rtol=1e-9)
 
 

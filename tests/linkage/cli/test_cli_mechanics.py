@@ -237,7 +237,7 @@ def test_capacity_of_a_design_in_a_file_is_that_of_its_dimensions(said):
         ("capacity header_balancer", "HeaderBalancer has no cylinder but those that gas feeds"),
         ("capacity crane", "Crane has the cylinders extend, lift, fold; say --cylinder one of them."),
         ("capacity loader.py --cylinder left", "Cylinder 'left' is unknown in Loader. Did you mean lift?"),
-        ("capacity loader.py --circuit pum", "LiftCircuit 'pum' is unknown in Loader with lift. Did you mean pump?"),
+        ("capacity loader.py --circuit pum", "LiftCircuit 'pum' is unknown in Loader. Did you mean pump?"),
         ("capacity loader.py --circuit pump --pressure 3bar", "--pressure and --circuit both say what feeds the cylinder"),
         ("capacity loader.py --pressure 3mm", "--pressure: '3mm' is a length"),
         ("capacity loader.py --at-point Q", "Point 'Q' is unknown in Loader."),

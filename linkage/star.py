@@ -13,7 +13,5 @@ def declare_public(door: dict[str, object]) -> None:
     root = str(door["__name__"]).partition(".")[0]
     hidden = ("annotations", "TYPE_CHECKING", declare_public.__name__)
     named = {name: each for name, each in door.items() if name[0] != "_" and name not in hidden and not isinstance(each, ModuleType)}
-    foreign = {
-        name for name, each in named.items() if isinstance(each, (type, FunctionType)) and each.__module__.partition(".")[0] != root
-    }
-    door["__all__"] = [name for name in named if name not in foreign]
+    owners = {name: each.__module__ if isinstance(each, (type, FunctionType)) else root for name, each in named.items()}
+    door["__all__"] = [name for name, owner in owners.items() if owner.partition(".")[0] == root]

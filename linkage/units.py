@@ -23,7 +23,7 @@ from types import MappingProxyType
 from typing import Any, Self
 
 from .errors import DefinitionError, article, cited, ensure, known_name, unknown
-from .language import noted, translated
+from .language import translated
 from .star import declare_public
 
 
@@ -306,18 +306,6 @@ SYSTEMS: Mapping[str, dict[str, str]] = MappingProxyType({
     },
 })  # fmt: skip
 """The unit of every measure in each system; a measure that is not in it keeps its unit."""
-
-SIGNS = (
-    noted("m"), noted("mm"), noted("cm"), noted("inch"), noted("in"), noted("ft"), noted("rad"), noted("deg"), noted("s"), noted("min"),
-    noted("kg"), noted("t"), noted("lb"), noted("N"), noted("kN"), noted("kgf"), noted("lbf"), noted("Nm"), noted("kNm"), noted("kgf m"),
-    noted("lbf ft"), noted("Pa"), noted("kPa"), noted("MPa"), noted("bar"), noted("kgf_cm2"), noted("kgf/cm2"), noted("psi"), noted("l"),
-    noted("litre"), noted("cm3"), noted("m3"), noted("gal"), noted("in3"), noted("mm2"), noted("cm2"), noted("m2"), noted("in2"),
-    noted("l/min"), noted("gal/min"), noted("m3/s"), noted("N/m"), noted("N/mm"), noted("kN/m"), noted("kgf/mm"), noted("lbf/in"),
-    noted("N s/m"), noted("J"), noted("kJ"), noted("kWh"), noted("kW"), noted("hp"),
-    noted("m/s"), noted("mm/s"), noted("in/s"), noted("m/s2"), noted("mm/s2"), noted("m/s3"), noted("mm/s3"),
-    noted("rad/s"), noted("deg/s"), noted("rad/s2"), noted("deg/s2"), noted("rad/s3"), noted("deg/s3"), noted("rad/m"), noted("kg m2"),
-)  # fmt: skip
-"""The units that another language writes in its own way."""
 
 _SYSTEM: ContextVar[str] = ContextVar("unit_system", default="")
 _ASKED: ContextVar[set[str] | None] = ContextVar("units_asked", default=None)

@@ -8,10 +8,10 @@ places on a way do not depend on the poses asked for, so that a pose is the same
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import pi
 from types import MappingProxyType
-from typing import Self
+from typing import NamedTuple, Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -60,16 +60,16 @@ def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Numbers]
             ((name, stroke),) = plan.strokes.items()
             ends = np.array([stroke.start, stroke.end]) - plan.sketch_strokes[name]
             declared = np.ceil(np.array([ends.max(), -ends.min()]) / piece_length(plan, name)).astype(np.intp)
-            whole = replace(ways, length=np.maximum(ways.length, declared))
+            whole = ways._replace(length=np.maximum(ways.length, declared))
             known = KEPT[plan] = key, whole.length, whole.tracks(plan, single)
         turns = {name: np.rint(each.angle_at(ways.target, ways.place)) for name, each in known[2].items()}
-        return replace(found, inputs={**found.inputs, **turns})
+        return found._replace(inputs={**found.inputs, **turns})
     references: dict[str, FloatArray] = {name: np.full((m, n), np.nan) for name in plan.followed}
     for part in ways.parts():
         here = np.isin(part.target, part.lines)
         for name, track in part.tracks(plan, single).items():
             references[name][here] = np.rint(track.angle_at(part.target[here], part.place[here]))
-    return replace(found, inputs={**found.inputs, **references})
+    return found._replace(inputs={**found.inputs, **references})
 
 
 def ambiguous_angle(
@@ -106,8 +106,7 @@ def piece_length(plan: Plan, name: str) -> float:
     return min(abs(stroke.end - stroke.start), 2.0 * pi) / PIECES
 
 
-@dataclass(frozen=True)
-class StrokeLines:
+class StrokeLines(NamedTuple):
     """Lines in stroke space, each with its design, its first strokes, the strokes per unit of place, and its whole length.
 
     `target` and `place`, shape (m, n), tell on which line a pose stands, and where.
@@ -154,7 +153,7 @@ class StrokeLines:
         """Return these ways some at a time; those with no pose are left out."""
         used = self.lines[np.isin(self.lines, self.target)]
         ends = np.cumsum(self.length[used] + 1) // MANY
-        return [replace(self, lines=used[ends == each]) for each in np.unique(ends)]
+        return [self._replace(lines=used[ends == each]) for each in np.unique(ends)]
 
     def tracks(self, plan: Plan, designs: Mapping[str, Numbers], begin: Mapping[str, FloatArray] = NOWHERE) -> dict[str, AnglePath]:
         """Return every followed angle along these ways, which begin at the sketch, or where the angles are about `begin` [rad]."""
@@ -189,8 +188,7 @@ class StrokeLines:
         return AnglePath.from_stretches(done, points.subset(points.place == 0.0), begin)
 
 
-@dataclass(frozen=True)
-class Points:
+class Points(NamedTuple):
     """Places on ways with a vector there, shape (2, k), and its derivative by the place."""
 
     line: Index
@@ -200,17 +198,14 @@ class Points:
 
     def subset(self, which: Index | Mask) -> Points:
         """Return some of them."""
-        return Points(self.line[which], self.place[which], self.value[:, which], self.rate[:, which])
+        return Points._make(each[..., which] for each in self)
 
     def merged_with(self, other: Points) -> Points:
         """Return these and others after them."""
-        pairs = ((self.value, other.value), (self.rate, other.rate))
-        value, rate = (np.concatenate(pair, axis=1) for pair in pairs)
-        return Points(np.concatenate([self.line, other.line]), np.concatenate([self.place, other.place]), value, rate)
+        return Points._make(np.concatenate(pair, axis=-1) for pair in zip(self, other, strict=True))
 
 
-@dataclass(frozen=True)
-class AnglePath:
+class AnglePath(NamedTuple):
     """An angle along ways: pieces in order, with the angle at their start [rad], NaN behind where it is lost, and its change over each."""
 
     starts: FloatArray

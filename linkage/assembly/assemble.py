@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass
 from itertools import combinations, permutations, starmap
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -176,8 +175,7 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
 # What no dyad pattern places: the smallest sets of pins whose equations determine them together.
 
 
-@dataclass(frozen=True)
-class PinEquation:
+class PinEquation(NamedTuple):
     """An equation of the parts list: its loose pins, and its words."""
 
     pins: tuple[str, ...]
@@ -336,9 +334,7 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     members = with_begun_pins(members, title)
     if not any(is_loose(member) or sketched(member) for member in members.values()):
         return dict(members)
-    among = {name: member.among(members) for name, member in members.items()}
-    wanted = {name: needed_names(name, member, title) for name, member in among.items()}
-    with_inner(among, wanted, title)
+    among, _ = with_inner(members, title)
     defaults = {variable: default for member in among.values() for variable, default, *_ in member.variables()}
     inner = {name: drawn_in(member, defaults) for name, member in among.items() if name not in members}
     check_names({**members, **inner}, title)
@@ -470,8 +466,7 @@ class Parts:
                 object.__setattr__(group, "_name", name)
                 self.settled[name] = group
                 for pin in group.pins:
-                    self.settled[pin] = member = copy(self.pins[pin])
-                    member.group = group
+                    self.settled[pin] = self.pins[pin].renewed(group=group)
                 self.known |= {name, *group.pins}
 
     def waits(self, member: Member) -> bool:
@@ -484,10 +479,8 @@ class Parts:
         if name in self.held:
             return
         if isinstance(member, Step):
-            named = copy(member)
-            object.__setattr__(named, "_name", name)
             with about(name):
-                member = sided(name, with_measured_labels(name, named, self.sketch), self.settled, self.title)
+                member = sided(name, with_measured_labels(name, member.renewed(_name=name), self.sketch), self.settled, self.title)
             if name in self.pins:
                 member.drawn_at = self.pins[name].drawn_at
         if isinstance(member, Link) and name in self.links:  # its labels as they are given, the drawn lengths of cylinders among them

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ..plan import Plan
 from ..program import BACKEND, FLOATS, GUARDED, Dialect, FloatArray, Level, Node, ancestors, compiled, expanded, lowered, replaced
+from ..program.cache import is_cached
 from ..program.numba_backend import compiled_loop, pays_compiled
 from ..program.text import HEAD, NUMBA, lane_loop
 from ..steps import Group
@@ -309,8 +309,7 @@ class InputRoute:
         return {name: start if np.ndim(slope) == 0 and slope == 0.0 else start + place * slope for name, (start, slope) in lines}
 
 
-@dataclass(frozen=True)
-class Lanes:
+class Lanes(NamedTuple):
     """Where ways begin and how far they are to go, arrays (lanes,): u (coordinates, lanes) [m]."""
 
     lane: Index
@@ -356,7 +355,7 @@ class GroupPath:
         """Return this track followed farther, by the steps it would have taken at once; itself where it goes so far."""
         if np.all((goal <= self.lanes.goal) | (self.ended < np.inf)):
             return self
-        return GroupPath(self.newton, self.route, before, replace(self.lanes, goal=np.maximum(goal, self.lanes.goal)), self)
+        return GroupPath(self.newton, self.route, before, self.lanes._replace(goal=np.maximum(goal, self.lanes.goal)), self)
 
     def _held(self, lane: Index, place: FloatArray) -> dict[str, Numbers]:
         """Return the inputs of this group's programs at places of lanes, the pins of the groups before it included."""
@@ -412,7 +411,7 @@ class GroupPath:
         if program is None or asked not in ("numba", None):
             return None
         ahead = program.spent + steps * program.work
-        pays = asked == "numba" or pays_compiled(ahead, "follow" in vars(program), lambda: program.compiled_text)
+        pays = asked == "numba" or pays_compiled(ahead, "follow" in vars(program), lambda: is_cached(program.compiled_text))
         return program if pays else None
 
     def _lines(self, program: Program, lanes: Index) -> tuple[FloatArray, FloatArray]:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -27,8 +26,7 @@ LINE = 1.0 / 8
 """The largest step of a straight way from the sketch to a pose of several strokes, or from the class's design to another."""
 
 
-@dataclass(frozen=True)
-class GroupSolution:
+class GroupSolution(NamedTuple):
     """The inputs that groups' solutions supply, shape (designs, poses), and the group whose branches cross on the way, counted from 1."""
 
     inputs: Mapping[str, FloatArray]

@@ -97,11 +97,7 @@ def _modes(
 
 def sided_as(step: Step, side: Side) -> Step:
     """Return a step on a side, without a sketch position."""
-    if step.side is side:
-        return step
-    chosen = copy(step)
-    chosen.side, chosen.near = side, None
-    return chosen
+    return step if step.side is side else step.renewed(side=side, near=None)
 
 
 # The lines of code that choose a mode.
@@ -213,10 +209,8 @@ def with_own_groups(plan: Plan, pins: Mapping[str, tuple[float, float]]) -> dict
     for name, group in plan.groups.items():
         own = members[name] = copy(group)
         for pin in group.pins:
-            moved = members[pin] = copy(plan.of_kind(Pin)[pin])
-            moved.group = own
-            if pin in pins:
-                moved.near, moved.drawn_at = rounded_to(pins[pin], 6), None
+            moved = {"near": rounded_to(pins[pin], 6), "drawn_at": None} if pin in pins else {}
+            members[pin] = plan.of_kind(Pin)[pin].renewed(group=own, **moved)
     return members
 
 

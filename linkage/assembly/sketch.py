@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from copy import copy
-from dataclasses import dataclass
 from math import acos, atan2, cos, pi, remainder, sin
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -111,11 +109,8 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     place = step.near or step.drawn_at
     if place is None or step.side is not None:
         return step
-    sketches = {}
-    for side in Plan({**settled, name: step}, title).points[name].modes():
-        chosen = copy(step)
-        chosen.side, chosen.drawn_at = side, None
-        sketches[side] = Sketch({**settled, name: chosen}, title)
+    sides = Plan({**settled, name: step}, title).points[name].modes()
+    sketches = {side: Sketch({**settled, name: step.renewed(side=side, drawn_at=None)}, title) for side in sides}
     if not sketches:
         return step
     distance = {side: float(np.hypot(*np.subtract(sketch.at(name), place))) for side, sketch in sketches.items()}
@@ -131,9 +126,7 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
             "Move near=(x, y) to the side that is meant, or say side=LEFT or side=RIGHT.",
             member=name,
         )
-    chosen = copy(step)
-    chosen.side, chosen.near = side, None
-    return chosen
+    return step.renewed(side=side, near=None)
 
 
 def with_measured_labels(name: str, step: Step, sketch: Callable[[], Sketch]) -> Step:
@@ -142,8 +135,7 @@ def with_measured_labels(name: str, step: Step, sketch: Callable[[], Sketch]) ->
         return step
     drawing, X = sketch(), np.array(step.drawn_at)
     parents = [name_of(parent) for parent in step.parents]
-    found = copy(step)
-    found.labels = dict(step.labels) | missing_labels(name, step, parents, X, drawing.at)
+    found = step.renewed(labels=step.labels | missing_labels(name, step, parents, X, drawing.at))
     for parent in parents:
         for label in {joined_names(parent, name), joined_names(name, parent)} & set(step.labels):
             found.labels[label] = drawing.extended(step.labels[label], float(np.hypot(*(X - drawing.at(parent)))))
@@ -294,8 +286,7 @@ DIGITS = 3
 """Digits of the stroke that is named as a remedy."""
 
 
-@dataclass(frozen=True)
-class Difference:
+class Difference(NamedTuple):
     """A length [m] or an angle [rad] that is given otherwise than it is drawn, and which of its points stands off its place [m]."""
 
     label: str

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 import sympy
@@ -18,7 +18,6 @@ from sympy.matrices.expressions.matexpr import MatrixElement, MatrixSymbol
 from sympy.matrices.expressions.matmul import MatMul
 
 from ..errors import DefinitionError, ensure
-from ..frozen import immutable
 from ..loads import AT_REST, Acting, Case, ForceElement, Rate, Rates, Support, TwoPinned, TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
@@ -168,8 +167,7 @@ WORDS = (
 )
 
 
-@immutable
-class Pulled:
+class Pulled(NamedTuple):
     """A load as it is written: its point, its symbol, and its direction: -1 downwards, 1 upwards, 0 a vector's own."""
 
     point: str

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 import sympy
 
-from ..frozen import immutable
 from ..motion import Motion
 from ..plan import Plan
 from ..quantities import FRAME_AXES, AtPose, Axes, Quantity, Variable, source_text
 from ..quantities.member import Member, Reference, Tabulated, Turning, Where, joined_names, name_of
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
-from ..vectors import FloatArray, Line, Numbers, Scalar, Vec
+from ..vectors import FloatArray, Line, Numbers, Vec
 from .names import Direction, Norm, SymbolNames, Tcos, TurnV, TurnVL, explicit, vector_symbol
 from .printing import Text
 from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term, vector_expr
@@ -31,7 +30,7 @@ def symbolic_value(member: Member, reading: Listing) -> Any:
         case CosineAngle():
             return Term(Tcos(*(reading.value(side).expr for side in member.triangle)), ANGLE)
         case Quantity():
-            return term(member.rule(cast(Where, reading)))
+            return term(member.rule(reading))
         case Axis():
             return x_axis_of(member.axes, reading)
         case Turn():
@@ -48,7 +47,7 @@ def symbolic_value(member: Member, reading: Listing) -> Any:
         case Offset():
             return reading.at(member.P).expr + reading.arrow_line(member.by)
         case Point():
-            place, given = cast("Place | Vec", member.place(cast(Where, reading))), member.coordinates()
+            place, given = member.place(reading), member.coordinates()
             if not given or not getattr(member, "axes", FRAME_AXES).is_frame:
                 return vector_expr(place)
             is_formula = any(not value.is_constant for _, value in given)
@@ -66,8 +65,7 @@ def x_axis_of(axes: Axes, reading: Listing) -> sympy.MatrixExpr:
 # A line of the listing: what stands for what.
 
 
-@immutable
-class ListingLine:
+class ListingLine(NamedTuple):
     """One line: a symbol, its formula, and its unit."""
 
     lhs: sympy.Basic
@@ -80,8 +78,7 @@ class ListingLine:
         return str(Text().doprint(self.lhs))
 
 
-@immutable
-class GivenNumber:
+class GivenNumber(NamedTuple):
     """A symbol that no line gives, its value at the poses of a motion [SI], and its unit."""
 
     symbol: sympy.Symbol | sympy.MatrixSymbol
@@ -94,7 +91,7 @@ class GivenNumber:
         return dict(zip(explicit(self.symbol), value if self.symbol.is_Matrix else (value,), strict=True))
 
 
-class Listing:
+class Listing(Where):
     """A reading (see `linkage.quantities.Where`) whose scalars are terms; asking for a member writes its lines first."""
 
     def __init__(self, plan: Plan) -> None:
@@ -116,20 +113,14 @@ class Listing:
             name, *left = left
             member = self.plan.members[name]
             if isinstance(member, Point) or not any(name in self.plan.reaches(later) for later in left):
-                self.ask(name, member)
-
-    def ask(self, name: str, member: Member) -> None:
-        """Write a member's line, if it has one."""
-        if isinstance(member, Point):
-            self.at(name)
-        elif isinstance(member, Arrow):
-            self.arrow_line(name)
-        elif isinstance(member, Quantity):
-            self.value(name)
+                if isinstance(member, Quantity):
+                    self.value(name)
+                elif isinstance(member, (Point, Arrow)):
+                    self.symbol_of(name)
 
     # -- points and vectors ----------------------------------------------------------------------------
 
-    def at(self, point: Reference) -> Place:
+    def at(self, point: Reference) -> Place:  # type: ignore[override]
         """Return a point."""
         name = name_of(point)
         group = next((each for each in self.plan.groups.values() if name in each.pins), None)
@@ -157,7 +148,7 @@ class Listing:
                 self._kept.append(each)
                 self.assign(each)
         for slide in group.slides:
-            (miss,) = slide.constraints(cast(Where, self))
+            (miss,) = slide.constraints(self)
             self.lines.append(ListingLine(miss.expr, sympy.S.Zero, LENGTH))
 
     def assign(self, each: Assignment) -> None:
@@ -200,7 +191,7 @@ class Listing:
             self.define(key, self.names.vector(named), symbolic_value(member, self), LENGTH)
         return self._vectors[key]
 
-    def vector(self, vector: Reference) -> Place:
+    def vector(self, vector: Reference) -> Place:  # type: ignore[override]
         """Return a vector member."""
         return Place(lambda: self.arrow_line(vector), self)
 
@@ -237,7 +228,8 @@ class Listing:
                 if named:
                     symbol = self.names.quantity(named)
                 else:
-                    symbol = (self.names.angle if found.unit == ANGLE else self.names.length)(self._labels[id(member)].name)
+                    label = self._labels[id(member)].name
+                    symbol = self.names.force(label, "angle") if found.unit == ANGLE else self.names.length(label)
                 self.lines.append(ListingLine(symbol, found.expr, found.unit))
                 found = Term(symbol, found.unit)
             self._terms[key] = found
@@ -259,22 +251,14 @@ class Listing:
         """Return the symbol of a stroke, a dimension or a coordinate."""
         return Term(self.names.quantity(name), self.units[name])
 
-    def at_pose(self, quantity: Quantity, strokes: Mapping[str, float]) -> Term:
+    def at_pose(self, quantity: Reference, strokes: Mapping[str, float]) -> Term:
         """Return the symbol of a quantity at one pose of the strokes: a given number."""
-        found = AtPose(quantity, strokes)
-        symbol = self.names.force(f"{joined_names(*(name_of(each) for each in quantity.parts()))}_0")
+        found = AtPose(cast(Quantity, quantity), strokes)
+        symbol = self.names.force(f"{joined_names(*map(name_of, found.of.parts()))}_0")
         self.givens.append(GivenNumber(symbol, lambda motion: motion.value(found), LENGTH))
         return Term(symbol, LENGTH)
 
     # -- what the rules of other steps ask -------------------------------------------------------------
-
-    def root(self, radicand: Term, scale: Scalar, size: Scalar, most: Scalar = None) -> Term:
-        """Return the square root that closes a loop."""
-        return FUNCTIONS["sqrt"](radicand)
-
-    def margin(self, sine: Scalar) -> Scalar:
-        """Return the sine of the angle between a loop's two members."""
-        return sine
 
     def line(self, guide: Reference) -> Line:
         """Return a guide's line."""
@@ -285,7 +269,7 @@ class Listing:
             self.define(("line", name), self.names.direction_symbol(name), symbolic_value(member, self), NUMBER)
         along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
         if member.P is None and not member.axes.is_frame and ("origin", name) not in self._vectors:
-            place = member.axes.place(cast(Where, self), Vec(self.input(f"{name}.x"), self.input(f"{name}.y")))
+            place = member.axes.place(self, Vec(self.input(f"{name}.x"), self.input(f"{name}.y")))
             self.define(("origin", name), self.names.vector(name), sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]), LENGTH)
         start = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)
         return Line(start, along)  # type: ignore[arg-type]
@@ -294,11 +278,11 @@ class Listing:
         """Return the value of a table, by its name."""
         return Term(curve_function(curve, order)(term(x).expr))
 
-    def angle_of(self, vector: Place) -> Term:
+    def angle_of(self, vector: Place | Vec) -> Term:
         """Return a vector's direction."""
         return Term(Direction(vector_expr(vector)), ANGLE)
 
-    def followed(self, angle: str, vector: Place) -> None:
+    def followed(self, angle: str, vector: Place | Vec) -> None:
         """Return nothing: an angle is written the same, wherever it is counted from."""
 
     def link(self, P: str, Q: str) -> Term | None:
@@ -310,11 +294,7 @@ class Listing:
         """Return the distance of two points."""
         return self.link(P, Q) or Term(Norm(self.between(P, Q)), LENGTH)
 
-    def apart(self, square: Scalar) -> Scalar:
-        """Return the square of a vector whose direction is taken."""
-        return square
-
-    def direction(self, P: str, Q: str) -> Place:
+    def direction(self, P: str, Q: str) -> Place:  # type: ignore[override]
         """Return the vector between two points."""
         return self.at(Q) - self.at(P)
 

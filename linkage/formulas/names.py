@@ -200,10 +200,6 @@ class SymbolNames:
         """Return the symbol of a vector's given length: L_AB."""
         return sympy.Symbol(self._text(("length", vector), f"L_{vector}", self._length_latex(vector)), real=True)
 
-    def angle(self, name: str) -> sympy.Symbol:
-        """Return the symbol of an angle that a step brings: OAB."""
-        return sympy.Symbol(self._text(("angle", name), name, self._scalar_latex(name)), real=True)
-
     def derivative(self, symbol: sympy.Symbol | sympy.MatrixSymbol, stroke: sympy.Symbol) -> sympy.Symbol | sympy.MatrixSymbol:
         """Return the symbol of a derivative by a stroke: dOAB/dS."""
         text = self._text(("derivative", symbol, stroke), f"d{symbol.name}/d{stroke.name}")
@@ -223,9 +219,9 @@ class SymbolNames:
         """Return the symbol of a transfer ratio: I_G for dG_y/dS."""
         return sympy.Symbol(self._text(("ratio", point), f"I_{point}", f"I_{{{self._scalar_latex(point)}}}"), real=True)
 
-    def force(self, name: str) -> sympy.Symbol:
-        """Return the symbol of a scalar that the equations of forces bring: P_load, Q_S, T_lift."""
-        return sympy.Symbol(self._text(("force", name), name, self._scalar_latex(name)), real=True)
+    def force(self, name: str, kind: str = "force") -> sympy.Symbol:
+        """Return the symbol of a scalar that the equations of forces bring: P_load, Q_S, T_lift; or of an "angle" of a step: OAB."""
+        return sympy.Symbol(self._text((kind, name), name, self._scalar_latex(name)), real=True)
 
     def force_vector(self, name: str) -> sympy.MatrixSymbol:
         """Return the symbol of a force as a vector: F_pull."""

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from textwrap import wrap
 from types import MappingProxyType
-from typing import Any, TypeAlias, overload
+from typing import Any, NamedTuple, TypeAlias, overload
 
 import mpmath
 import numpy as np
@@ -200,9 +199,8 @@ class Equation:
 
     def __str__(self) -> str:
         """Return the equation as text, without its number: `L_AB(S) = L0 + S`."""
-        text = Text()
         arguments = f"({', '.join(each.name for each in self.follows)})" if self.follows else ""
-        return f"{self.name}{arguments} = {text.doprint(self.rhs)}"
+        return f"{self.name}{arguments} = {Text().doprint(self.rhs)}"
 
     def latex(self, words: Mapping[str, str]) -> str:
         """Return the equation as LaTeX, without its number; `words` is the LaTeX of the symbols."""
@@ -238,8 +236,7 @@ class Equation:
         return f"({self.number}) {self}"
 
 
-@dataclass(frozen=True)
-class SheetLine:
+class SheetLine(NamedTuple):
     """An equation with its numbers, in LaTeX: `symbol = formula = numbers = results`; `numbers` is empty where it says nothing new.
 
     The results have their units; the second, where there is one, is in the unit the quantity is shown in.
@@ -406,8 +403,8 @@ class Equations(Sequence[Equation], Shown):
     def _filled(self, at: Mapping[str, Numbers] | None, known: Mapping[str, object] | None = None) -> tuple[dict[str, str], dict[str, str]]:
         """Return every symbol's value as an equation has it, and as it is shown with its unit; `known` are the left sides' own."""
         pose, names, units = self._pose(at), self._listing.names, self._listing.units
-        if any(np.ndim(value) for value in pose.values()):
-            raise DefinitionError(f"{self.machine.plan.title}: numbers are filled in at one pose; give one value for each stroke.")
+        is_one = not any(map(np.ndim, pose.values()))
+        ensure(is_one, f"{self.machine.plan.title}: numbers are filled in at one pose; give one value for each stroke.")
         inputs = self._inputs(at)
         found: list[tuple[str, Any, Unit]] = []
         for name in (*self.machine.dimensions, *self.machine.plan.strokes):
@@ -446,11 +443,10 @@ class Equations(Sequence[Equation], Shown):
 
         `known` are the left sides' values there by name [SI], where `values` gave them already.
         """
-        check_pose(self.machine, at)
         values, shown = self._filled(at or self._poses, known)
         headings = self.headings
         sheet = [each.sheet(self._listing.names.latex, values, shown) for each in self._items]
-        return [replace(each, heading=headings[each.number]) if each.number in headings else each for each in sheet]
+        return [each._replace(heading=headings[each.number]) if each.number in headings else each for each in sheet]
 
     together = FormerName("iterated_pins")
 

@@ -139,29 +139,25 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         self.words, self.values = words, values or {}
         self.times = r" \cdot " if values else " "
 
-    def _print_Symbol(self, expr: sympy.Symbol, style: str = "plain") -> str:
+    def _print_Symbol(self, expr: sympy.Symbol | sympy.MatrixSymbol, style: str = "plain") -> str:
         if expr.name in self.values:
             return number_latex(self.values[expr.name], inside=True)
+        if expr.is_Matrix:
+            return r"\vec{\imath}" if expr.name == "i" else self.words.get(expr.name, expr.name)
         return self.words.get(expr.name) or str(super()._print_Symbol(expr))
 
-    def _print_MatrixSymbol(self, expr: sympy.MatrixSymbol, style: str = "plain") -> str:
-        if expr.name in self.values:
-            return number_latex(self.values[expr.name], inside=True)
-        return r"\vec{\imath}" if expr.name == "i" else self.words.get(expr.name, expr.name)
+    _print_MatrixSymbol = _print_Symbol
 
     def _print_MatrixElement(self, expr: MatrixElement) -> str:
         axis = "xy"[int(expr.i)]
         if expr.parent.name in self.values:
-            return number_latex(self.values[expr.parent.name].strip("()").split(", ")["xy".index(axis)], inside=True)
+            return number_latex(self.values[expr.parent.name].strip("()").split(", ")[int(expr.i)], inside=True)
         return self.words.get(f"{expr.parent.name}.{axis}") or rf"{self._print(expr.parent)}_{{{axis}}}"
 
     def _print_Float(self, expr: sympy.Float) -> str:
         return number_latex(plain_number(float(expr), 12))
 
-    def _print_Add(self, expr: sympy.Add | sympy.MatAdd, order: str | None = None) -> str:
-        return signed_sum([self._print(each) for each in reading_order(expr.args)])
-
-    _print_MatAdd = _print_Add
+    _print_Add = _print_MatAdd = Text._print_Add
 
     def _print_MatMul(self, expr: sympy.MatMul) -> str:
         over, under, vector = factors(expr)

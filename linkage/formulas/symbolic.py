@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache, partial
+from functools import lru_cache, partial, partialmethod
 from math import isnan
-from typing import ClassVar, Protocol
+from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 import sympy
@@ -27,8 +27,7 @@ from .names import Cross, Deg, Dot, Norm, TurnV
 # What an expression measures: lengths, angles, and products of them.
 
 
-@dataclass(frozen=True)
-class Unit:
+class Unit(NamedTuple):
     """Powers of metre and radian; not `known` where a formula mixes units that it cannot follow."""
 
     length: Fraction = Fraction(0)
@@ -142,17 +141,11 @@ class Term(Operators["Term | float", "Term"]):
         found: Term = elementwise(lambda *numbers: self.applied(ufunc.__name__, *numbers), inputs)
         return found
 
-    def __lt__(self, other: Term | float) -> Relation:
-        return Relation(self.expr < term(other).expr)
+    def _compared(self, sign: Callable[[sympy.Expr, sympy.Expr], Boolean], other: Term | float) -> Relation:
+        return Relation(sign(self.expr, term(other).expr))
 
-    def __le__(self, other: Term | float) -> Relation:
-        return Relation(self.expr <= term(other).expr)
-
-    def __gt__(self, other: Term | float) -> Relation:
-        return Relation(self.expr > term(other).expr)
-
-    def __ge__(self, other: Term | float) -> Relation:
-        return Relation(self.expr >= term(other).expr)
+    __lt__, __le__ = partialmethod(_compared, operator.lt), partialmethod(_compared, operator.le)
+    __gt__, __ge__ = partialmethod(_compared, operator.gt), partialmethod(_compared, operator.ge)
 
     def __repr__(self) -> str:
         return f"{self.expr} {self.unit.text}".strip()

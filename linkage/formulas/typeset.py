@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import groupby, zip_longest
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from ..language import with_decimals
 
@@ -28,31 +27,27 @@ FENCES = {"lvert": "|", "rvert": "|", "{": "{", "}": "}", "lfloor": "⌊", "rflo
 SPACES = {",": 0.17, ":": 0.22, ";": 0.28, "quad": 1.0, " ": 0.3, "!": 0.0}
 
 
-@dataclass(frozen=True)
-class Sign:
+class Sign(NamedTuple):
     """One sign or word: a `variable`, a `word` of several letters in italics, a `name` upright, a `number`, an `operator`, a `space`."""
 
     kind: str
     text: str
 
 
-@dataclass(frozen=True)
-class BoxRow:
+class BoxRow(NamedTuple):
     """Boxes beside each other."""
 
     parts: tuple[Box, ...]
 
 
-@dataclass(frozen=True)
-class Fraction:
+class Fraction(NamedTuple):
     """One box over another."""
 
     over: Box
     under: Box
 
 
-@dataclass(frozen=True)
-class Script:
+class Script(NamedTuple):
     """A box with an index or an exponent, or both."""
 
     base: Box
@@ -60,23 +55,20 @@ class Script:
     high: Box | None
 
 
-@dataclass(frozen=True)
-class Arrowed:
+class Arrowed(NamedTuple):
     """A box under an arrow; a long one as wide as the box."""
 
     base: Box
     long: bool
 
 
-@dataclass(frozen=True)
-class Rooted:
+class Rooted(NamedTuple):
     """The square root of a box."""
 
     base: Box
 
 
-@dataclass(frozen=True)
-class Fenced:
+class Fenced(NamedTuple):
     """A box between signs as high as it is."""
 
     left: str
@@ -84,8 +76,7 @@ class Fenced:
     right: str
 
 
-@dataclass(frozen=True)
-class Lines:
+class Lines(NamedTuple):
     """Rows of boxes below each other."""
 
     rows: tuple[tuple[Box, ...], ...]

@@ -68,10 +68,9 @@ def rigid_rows(points: tuple[str, ...], places: Places, unknowns: tuple[str, ...
     rows = [coordinate_row({Q: direction, P: -direction}, unknowns)]
     for X in points[1:]:
         if X != Q:
-            turn = (complex_at[X] - complex_at[P]) / base
+            turn = ((complex_at[X] - complex_at[P]) / base).conjugate()
             # dX - dP - turn (dQ - dP) = 0, its real and its imaginary part
-            rows.append(coordinate_row({X: 1, P: turn.conjugate() - 1, Q: -turn.conjugate()}, unknowns))
-            rows.append(coordinate_row({X: 1j, P: 1j * (turn.conjugate() - 1), Q: -1j * turn.conjugate()}, unknowns))
+            rows += [coordinate_row({X: unit, P: unit * (turn - 1), Q: -unit * turn}, unknowns) for unit in (1, 1j)]
     return rows
 
 
@@ -95,8 +94,8 @@ def sided_rows(sides: tuple[tuple[str, ...], ...], places: Places, unknowns: tup
         for X in others:
             across = 1j * (complex(*places[X]) - complex(*places[P]))
             # dX - dP - across (turn . (dQ - dP)) = 0, its real and its imaginary part
-            rows.append(coordinate_row({X: 1, P: across.real * turn - 1, Q: -across.real * turn}, unknowns))
-            rows.append(coordinate_row({X: 1j, P: across.imag * turn - 1j, Q: -across.imag * turn}, unknowns))
+            parts = (across.real * turn, 1), (across.imag * turn, 1j)
+            rows += [coordinate_row({X: unit, P: part - unit, Q: -part}, unknowns) for part, unit in parts]
     return rows
 
 

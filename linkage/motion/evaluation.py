@@ -10,7 +10,7 @@ from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import accumulate, pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,15 +26,14 @@ PIECE = 1 << 18
 """Poses that are looked at again at a time."""
 
 
-@dataclass(frozen=True)
-class BulkProgram:
-    """The kernel of some requests: `parts`, the first row and the rows of each; `angles`: rows, and the angles that they follow.
+class BulkProgram(NamedTuple):
+    """The kernel of some requests: `parts`, the rows of each; `angles`: rows, and the angles that they follow.
 
     `may_fail`: there may be poses without a value that no guard reports.
     """
 
     kernel: Kernel
-    parts: tuple[tuple[int, int], ...]
+    parts: tuple[slice, ...]
     angles: tuple[tuple[list[int], Angles], ...]
     may_fail: bool
 
@@ -51,12 +50,12 @@ class BulkProgram:
         guards += [node for each in requests for node in each.gaps(plan)]
         guards += plan.trace.watched(members_behind(plan, requests), max((each.regular for each in requests), default=0.0))
         lengths = [each.rows for each in requests]
-        parts = tuple(zip(accumulate(lengths[:-1], initial=0), lengths, strict=True)) if lengths else ()
+        parts = tuple(slice(end - rows, end) for end, rows in zip(accumulate(lengths), lengths, strict=True))
         followed: dict[tuple[Node, ...], list[int]] = {}
-        for (first, rows), own, each in zip(parts, nodes, requests, strict=True):
+        for part, own, each in zip(parts, nodes, requests, strict=True):
             behind = angles_behind(plan, own) if Trait.FOLLOWS_ANGLES in each.traits else ()
             if behind:
-                followed.setdefault(behind, []).extend(range(first, first + rows))
+                followed.setdefault(behind, []).extend(range(part.start, part.stop))
         flat = [node for each in nodes for node in each]
         angles = tuple((rows, angles_of(plan, [flat[row] for row in rows])) for rows in followed.values())
         may_fail = plan.may_overflow or any(Trait.MAY_FAIL in each.traits for each in requests)
@@ -64,7 +63,7 @@ class BulkProgram:
 
     def split(self, values: FloatArray) -> list[FloatArray]:
         """Return one array a request of values, shape (rows, ...): (...), of a point (2, ...)."""
-        return [values[first : first + rows] if rows > 1 else values[first] for first, rows in self.parts]
+        return [values[part] if part.stop - part.start > 1 else values[part.start] for part in self.parts]
 
     def is_clear(self, result: Result) -> bool:
         """Return whether no pose of a result has to be looked at closely."""
@@ -85,8 +84,7 @@ def members_behind(plan: Plan, requests: Sequence[Request]) -> set[str]:
     return set().union(*(each.names(plan) for each in requests))
 
 
-@dataclass(frozen=True, eq=False)
-class CloseLook:
+class CloseLook(NamedTuple):
     """Where requests over a grid have trouble, masks (requests, m, n): `refused` near a singular pose, `doubtful` next to one.
 
     They are `missing` where they have no value, and `empty` where that is no error. `broken` (m, n): where a law is another than the one
@@ -138,10 +136,6 @@ class Evaluation:
                     found[rows] = np.where(reached, continued, np.nan)
         return program.split(found), look
 
-    def _starts(self) -> Iterator[tuple[int, slice]]:
-        """Yield the number of each request with its rows."""
-        yield from enumerate(slice(first, first + rows) for first, rows in self.program.parts)
-
     def _settle(self, place: FloatArray, among: Mask | None) -> CloseLook:
         """Put right the values (rows, m, n) where a guard tells: place poses to rounding, NaN where a request has none."""
         plan, size = self.grid.plan, self.grid.size
@@ -152,7 +146,7 @@ class Evaluation:
             block, here = place[:, band, part], look.in_block(band, part)
             _, height, width = block.shape
             unlike, unplaced, near, here.empty[...] = guard_masks(plan, self.requests, inputs, (height, width), self.options)
-            for number, rows in self._starts():
+            for number, rows in enumerate(self.program.parts):
                 block[rows, here.empty[number]] = 0.0
             bad = unlike | unplaced | near.any(axis=0) | ~np.isfinite(block).all(axis=0)
             bad &= True if among is None else among[band, part]
@@ -162,7 +156,7 @@ class Evaluation:
                 at_bad = {name: np.broadcast_to(value[:, None] if name in own else value, bad.shape)[bad] for name, value in shaped.items()}
                 here.broken[...] = unlike & bad
                 self._put_right(block, bad, at_bad, near[:, bad], here)
-            for number, rows in self._starts():
+            for number, rows in enumerate(self.program.parts):
                 block[rows, here.empty[number]] = np.nan
         return look
 
@@ -189,7 +183,7 @@ class Evaluation:
                     look.worst[k] = told
         look.refused[:, bad], look.doubtful[:, bad] = refused, doubtful
         look.broken[bad] &= ~lost & ~refused.any(axis=0)
-        for number, rows in self._starts():  # to rounding where they stand at a dead point, NaN where a request has no value
+        for number, rows in enumerate(self.program.parts):  # to rounding where they stand at a dead point, NaN where a request has no value
             values, without = block[rows, bad], lost | refused[number]
             at_end = ~without & ~np.isfinite(values).all(axis=0)
             if not self.requests[number].order and at_end.any():

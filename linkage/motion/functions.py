@@ -150,6 +150,7 @@ def at_one_pose(
     return None if found is None else program.bulk.split(np.array(found))
 
 
+FLOAT = np.dtype(float)
 FEW = 8192
 """Poses of one design that are worked out at once before any of them is looked at closely."""
 
@@ -161,18 +162,17 @@ def at_few_poses(
     """Return the same of one design at arrays of strokes, shape (n,), within the declared ranges; None as `at_one_pose` does."""
     if plan.solved or len(strokes) != len(plan.strokes) or not designs.is_of_floats:
         return None
-    sizes = set()
+    sizes = {each.size if type(each) is np.ndarray and each.ndim == 1 else 0 for each in moving.values() if type(each) is not float}
     for name, stroke in plan.strokes.items():
         value = strokes.get(name)
-        if type(value) is not np.ndarray or value.dtype != np.float64 or value.ndim != 1 or not 0 < value.size <= FEW:
+        if type(value) is not np.ndarray or value.dtype is not FLOAT or value.ndim != 1 or not 0 < value.size <= FEW:
             return None
-        low, high = (stroke.start, stroke.end) if stroke.start <= stroke.end else (stroke.end, stroke.start)
-        if not (low <= value.item(value.argmin()) and value.item(value.argmax()) <= high):  # what is not finite neither
+        low, high = value.item(value.argmin()), value.item(value.argmax())
+        if not (min(stroke.start, stroke.end) <= low and high <= max(stroke.start, stroke.end)):  # what is not finite neither
             return None
         sizes.add(value.size)
-    sizes |= {each.size if type(each) is np.ndarray and each.ndim == 1 else 0 for each in moving.values() if type(each) is not float}
-    identities = identities_of(plan, requests)
-    if identities is None or len(sizes) != 1:
+    identities = identities_of(plan, requests) if len(sizes) == 1 else None
+    if identities is None:
         return None
     program = plan.made(("few poses", identities), lambda _: BulkProgram.for_requests(plan, all_bound(plan, requests)))
     if program.angles:
@@ -265,8 +265,8 @@ class PoseFunction:
     """
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], orders: int = 0) -> None:
-        if any(np.ndim(value) for value in designs.values()):
-            raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
+        is_one = not any(map(np.ndim, designs.values()))
+        ensure(is_one, f"{plan.title}: a function of floats is of one design; use evaluate for several.")
         self._plan, self._designs, self._orders = plan, dict(designs), orders
         self._names = (*plan.strokes, *(rate_name(name, order + 1) for order in range(orders) for name in plan.strokes))
         requests = tuple(requests) if isinstance(requests, Iterator) else requests
@@ -323,10 +323,10 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
     """Return requests as text in a language; see Mechanism.source."""
     writer = LANGUAGES.for_object(language) or LANGUAGES[one_word("language", language, tuple(LANGUAGES))]
     require(isinstance(name, str) and name.isascii() and name.isidentifier(), "name", name, "a function's name is expected, such as poses")
-    if name in writer.words.split():
-        raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
-    if any(np.ndim(value) for value in designs.values()):
-        raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
+    taken = f"name={name!r} has a meaning in {language} already; give the function another name, such as poses."
+    ensure(name not in writer.words.split(), taken)
+    several = f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all."
+    ensure(not any(map(np.ndim, designs.values())), several)
     bound = all_bound(plan, as_they_run(requests, orders > 1) if orders else requests)
     design = {name: float(value) for name, value in designs.items()}
     nodes = plan.made(

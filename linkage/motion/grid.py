@@ -8,7 +8,7 @@ from functools import cached_property
 from hashlib import blake2b
 from math import prod
 from types import MappingProxyType
-from typing import Any, Protocol, Self, TypeAlias, TypeVar, cast
+from typing import Any, NamedTuple, Protocol, Self, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -72,8 +72,7 @@ class Grid:
         self.size = prod(self.design_shape), prod(self.stroke_shape)  # the number of designs and of poses of each
         self.joins_itself, self.joining = joining is None, joining or joined_by_stroke
         self._angles: dict[Kernel, FloatArray] = {}
-        shaped = {name: np.broadcast_to(value, shape) for name, value in rate_inputs.items()}
-        self.rate_inputs = FrozenDict({name: read_only(value) for name, value in shaped.items()})
+        self.rate_inputs = FrozenDict({name: read_only(np.broadcast_to(value, shape)) for name, value in rate_inputs.items()})
         self._of_poses = FrozenDict({**self.strokes, **self.rate_inputs}) if rate_inputs else self.strokes
         self._is_pose = self._is_plain and not plan.solved and all([value.size == 1 for value in self.strokes.values()])
 
@@ -93,8 +92,7 @@ class Grid:
         if self._is_plain:
             return self.designs
         given, varying = self.designs.items(), self._varying
-        full = {name: value if value.shape == shape else np.broadcast_to(value, shape) for name, value in given if name in varying}
-        return {name: full[name].ravel() if name in varying else float(value) for name, value in given}
+        return {name: np.broadcast_to(value, shape).ravel() if name in varying else float(value) for name, value in given}
 
     @cached_property
     def flat(self) -> dict[str, Any]:
@@ -162,9 +160,7 @@ class Grid:
 
     def inputs_at(self, mask: Mask) -> dict[str, FloatArray]:
         """Return the inputs at some poses, shape (n,); one number where all have it."""
-        given, shape = self.inputs.items(), self.shape
-        full = {name: value if value.shape in ((), shape) else np.broadcast_to(value, shape) for name, value in given}
-        return {name: value[mask] if value.ndim else value for name, value in full.items()}
+        return {name: np.broadcast_to(value, self.shape)[mask] if value.ndim else value for name, value in self.inputs.items()}
 
     def read_at(self, mask: Mask) -> ArrayReading:
         """Return the eager reading of some poses."""
@@ -293,8 +289,7 @@ def _joined(angle: FloatArray) -> FloatArray:
 # What follows from directions: nodes worked out again where an angle is continued past half a turn along the stroke.
 
 
-@dataclass(frozen=True, eq=False)
-class Angles:
+class Angles(NamedTuple):
     """Some nodes, the moving angles behind them, and the kernel of these."""
 
     nodes: tuple[Node, ...]

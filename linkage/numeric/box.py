@@ -13,13 +13,11 @@ M. L. Overton, SIAM J. Optim. 15 (2005) 751-779.
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
 from itertools import combinations, product
-from typing import Protocol, Self
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ..frozen import immutable
 from ..vectors import FloatArray, Mask
 from .line import CLOSE, LOWEST, Index, is_pole, last_holding, missing_lowest, shifted
 
@@ -67,8 +65,7 @@ def values_a_stroke(k: int, designs: int) -> int:
 # -- starts and what is known of them ------------------------------------------------------------------------
 
 
-@immutable
-class Climbs:
+class Climbs(NamedTuple):
     """Searches, arrays (r, ...): their function and design, the best place and its value, the next stencil, the value it should show."""
 
     function: Index
@@ -83,14 +80,14 @@ class Climbs:
     axis: Index
     """The stroke along which a border is followed, -1 where the box is searched."""
 
-    def subset(self, mask: Mask | Index) -> Self:
+    def subset(self, mask: Mask | Index) -> Climbs:
         """Return some of them."""
-        return type(self)(*(getattr(self, each.name)[mask] for each in fields(self)))
+        return Climbs._make(each[mask] for each in self)
 
     @classmethod
     def concatenated(cls, parts: list[Climbs]) -> Climbs:
         """Return all of several."""
-        return cls(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(cls)))
+        return Climbs._make(map(np.concatenate, zip(*parts, strict=True)))
 
     def best(self, rows: int) -> FloatArray:
         """Return the best value known, for each the best of its function and design; `rows` is the number of designs."""
@@ -193,8 +190,7 @@ def starts_of(box: SeenBox) -> tuple[Climbs, FloatArray]:
 # -- where it is smooth: a quadratic on a stencil ------------------------------------------------------------
 
 
-@immutable
-class Quadratic:
+class Quadratic(NamedTuple):
     """Quadratics (r,) of places (r, k) in their stencils, from -1 to 1: value, gradient, second derivatives."""
 
     value: FloatArray
@@ -267,7 +263,7 @@ def after_round(climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, pla
     gain = values[rows, pick] - climbs.value
     centre, half = climbs.centre, climbs.half[:, None]
     at = snapped(centre + half * stencil[pick]) if places is None else places[rows, pick]
-    climbs = replace(climbs, unit=np.where((gain > 0.0)[:, None], at, climbs.unit), value=np.fmax(climbs.value, values[rows, pick]))
+    climbs = climbs._replace(unit=np.where((gain > 0.0)[:, None], at, climbs.unit), value=np.fmax(climbs.value, values[rows, pick]))
     smooth = np.asarray(np.isfinite(seen).all(axis=-1))
     seen = np.where(smooth[:, None], seen, 0.0)
     model = Quadratic.through(seen, k)
@@ -283,7 +279,7 @@ def after_round(climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, pla
     done = trusted & (hoped - climbs.value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
     bound = np.fmax(climbs.value, hoped) + 2.0 * np.abs(hoped - climbs.value) + 2.0 * np.fmax(error, misfit)
     idle = np.where(smooth & (gain > least), 0, climbs.idle + 1)
-    climbs = replace(climbs, bound=np.where(smooth, bound, np.inf), idle=idle)
+    climbs = climbs._replace(bound=np.where(smooth, bound, np.inf), idle=idle)
     climbs = moved_on(climbs, model, u, smooth & (hoped > climbs.value), smooth & inside, trusted, gain > 0.0)
     rough = (idle > PATIENCE) & ~(trusted & inside)
     return climbs, done, ~done & (rough | (climbs.half <= NARROW))
@@ -303,7 +299,7 @@ def moved_on(climbs: Climbs, model: Quadratic, u: FloatArray, good: Mask, inside
     middle = np.where(fixed, climbs.unit, np.clip(goal, new[:, None], 1.0 - new[:, None]))
     step = (middle - centre) / half
     known = (good | inside) & (np.abs(step) <= 2.0).all(axis=-1)
-    return replace(climbs, centre=middle, half=new, expected=np.where(known, model.value_at(step), np.nan))
+    return climbs._replace(centre=middle, half=new, expected=np.where(known, model.value_at(step), np.nan))
 
 
 def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
@@ -384,7 +380,7 @@ def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
     k = box.k
     m = 2 * k + SLOPES
     half = np.full(len(climbs.value), 0.5 / (box.side - 1))
-    climbs, ended, root = replace(climbs, half=half), [], 2.0
+    climbs, ended, root = climbs._replace(half=half), [], 2.0
     for _ in range(64):  # a sequence that fills the cube from -1 to 1 evenly. Source: H. Weyl, Math. Ann. 77 (1916)
         root = (1.0 + root) ** (1.0 / (k + 1))
     for number in range(FALLS):
@@ -421,7 +417,7 @@ def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, see
     moved = (gain > 0.02 * half * np.sqrt((way * way).sum(axis=-1))) & (gain > least)
     far = moved & (pick >= FAR_ON) & (pick < len(LENGTHS))
     half = np.where(far, np.minimum(2.0 * half, 0.5), np.where(moved, half, 0.25 * half))
-    return replace(climbs, unit=unit, value=np.fmax(climbs.value, values[rows, pick]), half=half)
+    return climbs._replace(unit=unit, value=np.fmax(climbs.value, values[rows, pick]), half=half)
 
 
 # -- the border of what has a value --------------------------------------------------------------------------
@@ -539,7 +535,7 @@ def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     nearest[order[np.flatnonzero(np.diff(point.reshape(-1)[order], prepend=-1))]] = True
     hope = found + np.abs(found - starts.value) + starts.bound
     nearest &= (found > -np.inf) & (hope > known[starts.function, starts.design])  # what is the same everywhere gains nothing there
-    going = replace(starts, unit=places[:, 0], centre=places[:, 0], value=found, half=0.5 * starts.half)
+    going = starts._replace(unit=places[:, 0], centre=places[:, 0], value=found, half=0.5 * starts.half)
     order = np.flatnonzero(nearest)
     row = (going.function * D + going.design)[order]
     order = order[np.lexsort((-found[order], row))]
@@ -581,7 +577,7 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
         lost = ~np.isfinite(values).all(axis=-1)  # where the border is lost it is followed along the next stroke, each as wide as before
         axis = np.where(lost, (going.axis + 1) % box.k, going.axis)
         width = np.where(lost & (axis > 0), half, going.half)
-        going = replace(going, axis=axis, half=width, expected=np.where(lost, np.nan, going.expected))
+        going = going._replace(axis=axis, half=width, expected=np.where(lost, np.nan, going.expected))
         tops.append(going.subset(done))
         ended.append(going.subset(stuck & ~done))
         best = Climbs.concatenated([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..frozen import immutable
 from ..vectors import FloatArray, Mask
 from .line import Index
 
@@ -73,8 +72,7 @@ def descended(
     return unit, off
 
 
-@immutable
-class DampedSystem:
+class DampedSystem(NamedTuple):
     """The linear equations of a step of Levenberg and Marquardt from unit coordinates (m, k), and their solution, the `step` (m, k).
 
     `slopes` (m, targets, k) are those of the misses. In the `matrix` each coordinate counts in parts of its own effect `size` (m, k);

@@ -15,13 +15,11 @@ A line is made of legs, a place on it is a leg and a share t of it, 0 to 1. Noth
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from ..frozen import immutable
 from ..vectors import FloatArray, Mask
 
 Index: TypeAlias = npt.NDArray[np.intp]
@@ -44,8 +42,7 @@ SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a
 PLATEAU = 2.0**-12  # of the distance at which a value stopped growing: where it is level from there on numbers went no nearer
 
 
-@immutable
-class Highest:
+class Highest(NamedTuple):
     """The highest value of K functions of D designs, arrays (K, D): value, NaN where there is none; leg and t; whether it is unbounded."""
 
     value: FloatArray
@@ -54,8 +51,7 @@ class Highest:
     unbounded: Mask
 
 
-@immutable
-class Tops:
+class Tops(NamedTuple):
     """Places that may be highest, arrays (K, D, c): their values, half the brackets about them, and the most that may hide in these."""
 
     leg: Index
@@ -71,15 +67,15 @@ class Tops:
         np.put_along_axis(rank, np.argmax(self.value, axis=-1)[..., None], np.inf, axis=-1)
         count = int((rank > -np.inf).sum(axis=-1).max())
         order = np.argsort(-rank, axis=-1, kind="stable")[..., : min(most, count)]
-        return Tops(*(np.take_along_axis(getattr(self, name), order, axis=-1) for name in self.__dataclass_fields__))
+        return Tops._make(np.take_along_axis(each, order, axis=-1) for each in self)
 
     def subset(self, mask: Mask) -> Tops:
         """Return some of them as one row."""
-        return Tops(*(getattr(self, name)[mask][None, None] for name in self.__dataclass_fields__))
+        return Tops._make(each[mask][None, None] for each in self)
 
     def concatenated(self, other: Tops) -> Tops:
         """Return the places of both."""
-        return Tops(*(np.concatenate([getattr(each, name) for each in (self, other)], axis=-1) for name in self.__dataclass_fields__))
+        return Tops._make(np.concatenate(pair, axis=-1) for pair in zip(self, other, strict=True))
 
 
 def samples(counts: Sequence[int]) -> tuple[Index, FloatArray]:
@@ -200,11 +196,11 @@ def narrowed(look: Look, tops: Tops) -> Tops:
     at_end = ((tops.t == 0.0) | (tops.t == 1.0)) & (tops.half > CLOSE)
     if at_end.any():
         inwards = np.where(at_end, np.where(tops.t == 0.0, tops.half, -tops.half), 0.0)
-        found = steps_to_borders(look, replace(tops, half=inwards))
+        found = steps_to_borders(look, tops._replace(half=inwards))
         with np.errstate(invalid="ignore"):
             is_top = at_end & (found.value - tops.value <= ROUNDED * np.abs(tops.value))
-        settled, rises = replace(tops, half=np.where(is_top, 0.0, tops.half)), at_end & ~is_top
-        tops = Tops(*(np.where(rises, getattr(found, name), getattr(settled, name)) for name in tops.__dataclass_fields__))
+        settled, rises = tops._replace(half=np.where(is_top, 0.0, tops.half)), at_end & ~is_top
+        tops = Tops._make(np.where(rises, *pair) for pair in zip(found, settled, strict=True))
     at_end = (tops.t == 0.0) | (tops.t == 1.0)
     return tops if (at_end & (tops.half <= CLOSE)).all() else zoomed(look, tops)
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
-from ..frozen import immutable
 from ..vectors import FloatArray
 
 PANELS, NODES = 24, 5
@@ -18,8 +18,7 @@ ENDLESS = 1e-2
 """Of the panels' sizes: panels that disagree by more however fine they are stand at a pole, and there is no integral."""
 
 
-@immutable
-class Quadrature:
+class Quadrature(NamedTuple):
     """An integral (...), infinite where there is none, the `error` that the panels leave (...), and their `edges` (n + 1,)."""
 
     value: FloatArray

@@ -8,7 +8,8 @@ all of them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from ..frozen import immutable
 from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needed_behind, needs, of_kind
@@ -16,8 +17,7 @@ from ..steps import Point
 from .members import FRAME, Body, Members, carrying_pairs, member_sides, spanning_name
 
 
-@dataclass(frozen=True)
-class ChainBody:
+class ChainBody(NamedTuple):
     """A body of the chain: the `frame`, a `body`, a `barrel` or a `rod`, an `arm` or its `carriage`, a sliding `block`."""
 
     name: str
@@ -109,7 +109,7 @@ def chain_of(plan: Members) -> KinematicChain:
         on_it = next((body.points for body in plan.links[1:] if frozenset(ends) in carrying and set(ends) <= set(body.points)), ends)
         near, far = member_sides(plan, ends, on_it)
         chain.bodies += [
-            replace(body, points=(end, *(point for point in on_it if point in side and point != end)))
+            body._replace(points=(end, *(point for point in on_it if point in side and point != end)))
             for body, end, side in zip(part.bodies, ends, (near, far), strict=True)
         ]
         bar = driven.get(frozenset(ends))

@@ -114,9 +114,7 @@ class Members:
         self.title = title
         self.unbound: Mapping[str, Member] = FrozenDict(members)
         self._behind: dict[str, frozenset[str]] = {}
-        members = {name: member.among(members) for name, member in members.items()}
-        wanted = {name: needed_names(name, member, title) for name, member in members.items()}
-        with_inner(members, wanted, title)
+        members, wanted = with_inner(members, title)
         for name, needed in wanted.items():
             owner = members.get(name.rpartition(".")[0])
             needed += [owner.name] if owner is not None and owner.kind == "part" else []  # its part first, as it is pasted
@@ -484,8 +482,10 @@ def needed_names(name: str, member: Member, title: str) -> list[str]:
         raise DefinitionError(f"{title}.{name}: {error}", member=name) from None
 
 
-def with_inner(members: dict[str, Member], wanted: dict[str, list[str]], title: str) -> None:
-    """Enter inner members such as `lift.length` where another member needs them, with the names that they need."""
+def with_inner(given: Mapping[str, Member], title: str) -> tuple[dict[str, Member], dict[str, list[str]]]:
+    """Return the members of a class, inner ones such as `lift.length` where another needs them, and the names that each needs."""
+    members = {name: member.among(given) for name, member in given.items()}
+    wanted = {name: needed_names(name, member, title) for name, member in members.items()}
     lost = [name for needed in wanted.values() for name in needed if name not in wanted]
     while lost:
         name = lost.pop()
@@ -498,6 +498,7 @@ def with_inner(members: dict[str, Member], wanted: dict[str, list[str]], title: 
             members[name] = found.renewed(_name=name)
             wanted[name] = needed_names(name, members[name], title)
             lost += [each for each in wanted[name] if each not in wanted]
+    return members, wanted
 
 
 def construction_order(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:

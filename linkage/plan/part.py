@@ -497,18 +497,10 @@ def with_parts(members: Mapping[str, Member], title: str) -> dict[str, Member]:
 
 def carriers_first(parts: Mapping[str, Part]) -> list[str]:
     """Return the names of parts, each behind those that carry it, in the order written where that is free."""
+    owners = {name: {name_of(each, is_needed=False).partition(".")[0] for each in part.on} & parts.keys() for name, part in parts.items()}
     found: list[str] = []
-
-    def take(name: str, behind: tuple[str, ...] = ()) -> None:
-        for each in parts[name].on:
-            owner = name_of(each, is_needed=False).partition(".")[0]
-            if owner in parts and owner not in (*behind, name):
-                take(owner, (*behind, name))
-        if name not in found:
-            found.append(name)
-
-    for name in parts:
-        take(name)
+    while left := [name for name in parts if name not in found]:  # those that carry each other are refused later, as a cycle
+        found.append(next((name for name in left if owners[name] <= {name, *found}), left[0]))
     return found
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from math import isclose
-from typing import TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -24,8 +23,7 @@ Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
 """What a label measures: the two ends of a length, or the corner of an angle and its two sides' ends."""
 
 
-@dataclass(frozen=True)
-class DesignVariable:
+class DesignVariable(NamedTuple):
     """One design variable: its default [SI], kind of measure, owner, and display unit, if it has one."""
 
     name: str

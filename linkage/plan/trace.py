@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Hashable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property, reduce
+from math import prod
 from types import MappingProxyType
 from typing import Any
 
@@ -208,20 +209,20 @@ class Trace(Reading):
 
     def nearness(self, names: Container[str], *, exact: bool = False) -> Node:
         """Return the product of the distances of some members from singular poses, each at most 1."""
-        found = self.graph.constant(1.0)
-        for measure in self.measures:
-            if measure.member in names or not measure.member:
-                found = found * self.graph.apply("minimum", measure.exact if exact else measure.node, 1.0)
-        return found
+        parts = (measure.exact if exact else measure.node for measure in self._measures_of(names))
+        return prod((self.graph.apply("minimum", part, 1.0) for part in parts), start=self.graph.constant(1.0))
 
     def least_part(self, names: Container[str]) -> Node:
         """Return the least of the distances of some members from singular poses, at most 1."""
-        parts = [measure.exact for measure in self.measures if measure.member in names or not measure.member]
+        parts = [measure.exact for measure in self._measures_of(names)]
         return reduce(lambda a, b: self.graph.apply("minimum", a, b), parts, self.graph.one)
+
+    def _measures_of(self, names: Container[str]) -> list[Nearness]:
+        return [measure for measure in self.measures if measure.member in names or not measure.member]
 
     def watched(self, names: Container[str], near: float = NEAR**2) -> list[Node]:
         """Return the nodes that are above zero where some members can be worked out, far from every singular pose."""
-        parts = [measure.above for measure in self.measures if measure.member in names or not measure.member]
+        parts = [measure.above for measure in self._measures_of(names)]
         is_single = len(parts) == 1 and near > 0.0  # the bounds of 0 and 1 tell nothing of it
         first, second = parts[0] if is_single else (self.nearness(names), self.graph.one)
         return [*self.placeable(names), *([] if first.op == "constant" else [first - near * second])]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from math import frexp
 from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -88,8 +88,7 @@ EXACT = frozenset(("constant", "input", "negative", "absolute", "sign", "minimum
 """Operations that do not round, or whose arguments are shaken already."""
 
 
-@dataclass(frozen=True, eq=False)
-class Iterated:
+class Iterated(NamedTuple):
     """Unknowns that come into a program as inputs, found by iteration from the residuals that vanish there."""
 
     inputs: tuple[Node, ...]

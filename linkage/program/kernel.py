@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-import threading
 from array import array
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -143,8 +143,7 @@ def fixed_backend(backend: str) -> Iterator[None]:
         BACKEND.reset(token)
 
 
-@dataclass(frozen=True)
-class Result:
+class Result(NamedTuple):
     """The result of a kernel: values, shape (outputs, designs, poses), and one number a guard, above zero where it holds at all poses."""
 
     values: FloatArray
@@ -292,25 +291,16 @@ def run_threads(
     count = min(threads, max(m, n))
     edges = [max(m, n) * k // count for k in range(count + 1)]
     least = [np.full(len(guards), math.inf) for _ in range(count)]
-    errors: list[Exception] = []
 
     def work(k: int) -> None:
         here = slice(edges[k], edges[k + 1])
-        try:
-            with np.errstate(all="ignore"):
-                if m >= n:
-                    tables = [rows_part(value, here) for value in poses]
-                    backend.run([columns_part(value, here) for value in design], tables, values[:, here], least[k])
-                else:
-                    backend.run(design, [columns_part(value, here) for value in poses], values[:, :, here], least[k])
-        except Exception as error:
-            errors.append(error)
+        with np.errstate(all="ignore"):
+            if m >= n:
+                tables = [rows_part(value, here) for value in poses]
+                backend.run([columns_part(value, here) for value in design], tables, values[:, here], least[k])
+            else:
+                backend.run(design, [columns_part(value, here) for value in poses], values[:, :, here], least[k])
 
-    workers = [threading.Thread(target=work, args=(k,)) for k in range(count)]
-    for worker in workers:
-        worker.start()
-    for worker in workers:
-        worker.join()
-    if errors:
-        raise errors[0]
+    with ThreadPoolExecutor(count) as pool:
+        list(pool.map(work, range(count)))
     guards[:] = np.min(least, axis=0)

@@ -12,6 +12,7 @@ from functools import partial
 from itertools import product
 from string import ascii_lowercase, ascii_uppercase
 from types import MappingProxyType
+from typing import NamedTuple
 
 from .. import plugins
 from ..checks import instance_of
@@ -31,8 +32,7 @@ def number_text(value: float, infinite: str, nothing: str) -> str:
     return repr(value) if math.isfinite(value) else infinite if value > 0.0 else f"-{infinite}"
 
 
-@dataclass(frozen=True)
-class ProgramText:
+class ProgramText(NamedTuple):
     """A program as lines of one language, for a function to be put around them.
 
     `comment` says what the inputs are: dimensions `d`, strokes `p`, each in the order of its elements. `design` are the lines of what
@@ -142,10 +142,7 @@ MATHS: Mapping[str, str] = MappingProxyType(
 PARTS: Mapping[str, str] = MappingProxyType({"minimum": "I", "maximum": "M", "sign": "G", "solve": "J", "turns": "U"})
 """What the functions are called that JavaScript has not: least, greatest and sign with NaN passed on, a system, a continued angle."""
 ALONE: Mapping[str, str] = MappingProxyType(
-    {
-        **{name: f"Math.{name}" for name in ("sqrt", "sin", "cos", "tan", "exp", "log")},
-        **{"power": "Math.pow", "absolute": "Math.abs", "arctan2": "Math.atan2"},
-    }
+    {name: f"Math.{name}" for name in MATHS} | {"power": "Math.pow", "absolute": "Math.abs", "arctan2": "Math.atan2"}
 )
 """What Math's functions are called in a text that stands alone."""
 OWN: Mapping[str, str] = MappingProxyType(

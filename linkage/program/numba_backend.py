@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -26,14 +26,15 @@ COMPILE, LOAD = 2e10, 2e9
 """The operations from which compiling a loop pays, and from which loading one from disk does."""
 
 
+@cache
 def is_there() -> bool:
     """Return whether Numba is installed."""
     return find_spec("numba") is not None
 
 
-def pays_compiled(work: float, ready: bool, text: Callable[[], str]) -> bool:
+def pays_compiled(work: float, ready: bool, is_on_disk: Callable[[], bool]) -> bool:
     """Return whether so many operations are worth a compiled loop: it is there, on disk, or worth making."""
-    return ready or (work >= LOAD and is_there() and (work >= COMPILE or is_cached(text())))
+    return ready or (work >= LOAD and is_there() and (work >= COMPILE or is_on_disk()))
 
 
 def compiled_loop(text: str, name: str, arguments: Callable[[Any], Sequence[Any]]) -> Callable[..., Any]:
@@ -72,10 +73,15 @@ class NumbaLoop:
     def _texts(self) -> dict[bool, str]:
         return {turned: numba_text(self.plan, turned) for turned in (False, True)}
 
+    @cached_property
+    def _on_disk(self) -> dict[bool, bool]:
+        """Whether each text was compiled before: looked up once, as a look takes as long as a thousand poses."""
+        return {turned: is_cached(text) for turned, text in self._texts.items()}
+
     def is_worth(self, m: int, n: int, spent: int) -> bool:
         """Return whether so many designs and poses, and those before them, pay for compiling."""
         turned = self.turns(m, n)
-        return pays_compiled(float(spent + m * n) * max(len(self.plan.pose), 1), turned in self._ready, lambda: self._texts[turned])
+        return pays_compiled(float(spent + m * n) * max(len(self.plan.pose), 1), turned in self._ready, lambda: self._on_disk[turned])
 
     def turns(self, m: int, n: int) -> bool:
         """Return whether designs, not poses, are best contiguous in the result."""

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
+from ..numeric.linear import solve_linear
 from ..vectors import FloatArray, Numbers, Scalar, pick
 
 # Many small linear systems at once, and one in floats.
@@ -88,19 +89,8 @@ def _pivoted_each(n: int, entries: tuple[Numbers, ...]) -> FloatArray:
 def solve_floats(*entries: float) -> tuple[float, ...]:
     """Return the unknowns of one system by elimination with row pivots; NaN where it is singular."""
     n = unknowns(len(entries))
-    rows = [[*entries[k * n : k * n + n], entries[n * n + k]] for k in range(n)]
-    for k in range(n):
-        pivot = max(range(k, n), key=lambda row: abs(rows[row][k]))
-        rows[k], rows[pivot] = rows[pivot], rows[k]
-        if not abs(rows[k][k]) > 0.0:
-            return (math.nan,) * n
-        for row in rows[k + 1 :]:
-            factor = row[k] / rows[k][k]
-            row[k:] = [a - factor * b for a, b in zip(row[k:], rows[k][k:], strict=True)]
-    found = [0.0] * n
-    for k in reversed(range(n)):
-        found[k] = (rows[k][n] - sum(rows[k][j] * found[j] for j in range(k + 1, n))) / rows[k][k]
-    return tuple(found)
+    found = solve_linear([entries[k * n : k * n + n] for k in range(n)], entries[n * n :])
+    return (math.nan,) * n if found is None else tuple(found[0])
 
 
 def component(values: Sequence[Numbers], place: float) -> Numbers:
@@ -113,8 +103,7 @@ def choice_partials(result: Scalar, a: Scalar, b: Scalar) -> tuple[Scalar, Scala
     return result.graph.pick(a, b, 1.0, 0.0), result.graph.pick(a, b, 0.0, 1.0)
 
 
-@dataclass(frozen=True)
-class OperationRule:
+class OperationRule(NamedTuple):
     """One operation: how arrays evaluate it, how it is written, and its partial derivatives.
 
     `partials(result, *arguments)` returns the derivative of the result by each argument, as nodes.

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from .node import Node
 from .operations import OPERATIONS
 from .schedule import Schedule, ancestors
 
 
-@dataclass(frozen=True)
-class Dialect:
+class Dialect(NamedTuple):
     """How a language writes operations, numbers and assignments."""
 
     templates: Mapping[str, str]
@@ -70,6 +69,7 @@ def function_text(title: str, arguments: Sequence[Node], nodes: Iterable[Node], 
 HEAD = '''"""Made by linkage; safe to delete."""
 
 from math import atan2, exp, floor, inf, log, nan, sqrt, tan
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit

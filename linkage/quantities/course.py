@@ -15,7 +15,7 @@ from ..errors import DefinitionError, article, cited, ensure, one_word
 from ..frozen import FrozenDict, frozen_copy, read_only, refuses_changes
 from ..units import Amount, amounts_in, display_unit, require_measure, show
 from ..vectors import FloatArray
-from .curve import Curve, column
+from .curve import Curve, column, derived
 from .quantity import is_number, numbers_in
 
 KINDS = ("smooth", "straight", "monotone")
@@ -145,9 +145,8 @@ class Course:
             last = end
         powers = max(map(len, phases))
         whole = np.concatenate([np.pad(rows, ((0, powers - len(rows)), (0, 0))) for rows in phases], axis=1)
-        held = {"breaks": read_only(breaks), "_phases": read_only(whole), "_last": last}
-        self.__dict__.update(held, steps=tuple(FrozenDict({key: frozen_copy(value) for key, value in step.items()}) for step in steps))
-        self.__dict__["measures"] = measures
+        kept = tuple(FrozenDict({key: frozen_copy(value) for key, value in step.items()}) for step in steps)
+        self.__dict__.update(breaks=read_only(breaks), _phases=read_only(whole), _last=last, steps=kept, measures=measures)
 
     @property
     def duration(self) -> float:
@@ -188,12 +187,9 @@ class Course:
         within = time if phase is None else np.asarray(phase, float)
         begin, end = self.breaks[[0, -1]]
         number = np.clip(np.searchsorted(self.breaks, within, side="right") - 1, 0, len(self.breaks) - 2)
-        rows = self._phases
-        for _ in range(order):
-            rows = rows[1:] * np.arange(1, len(rows))[:, None] if len(rows) > 1 else np.zeros_like(rows)
         away = np.clip(time, begin, end) - self.breaks[number]
         total, size = np.zeros(np.shape(away)), np.zeros(np.shape(away))
-        for row in rows[::-1, number]:
+        for row in derived(self._phases, order)[::-1, number]:
             total, size = total * away + row, size * np.abs(away) + np.abs(row)
         if order:
             total = np.where((within < begin) | (within > end) | (np.abs(total) <= NOISE * size), 0.0, total)

@@ -136,10 +136,7 @@ class Curve:
         if self.period is not None:
             turn, middle = 2.0 * pi / self.period, 0.5 * float(self.xs[0] + self.xs[-1])
             x = wrap((x - middle) * turn) * (1.0 / turn) + middle
-        derived = self.pieces
-        for _ in range(order):
-            derived = derived[1:] * np.arange(1, len(derived))[:, None] if len(derived) > 1 else np.zeros_like(derived)
-        start, *powers = (self._chosen(x, row, pick) for row in (self.xs[:-1], *derived))
+        start, *powers = (self._chosen(x, row, pick) for row in (self.xs[:-1], *derived(self.pieces, order)))
         away, total = x - start, powers[-1]
         for factor in powers[-2::-1]:
             total = total * away + factor
@@ -162,25 +159,11 @@ class Curve:
     @cached_property
     def pieces(self) -> FloatArray:
         """The polynomials between the rows, by powers of the distance from the row: shape (4, rows - 1)."""
-        h, rise = np.diff(self.xs), np.diff(self.ys) / np.diff(self.xs)
-        count = len(h) + 1  # the second derivative at every row is such that the first one is continuous
-        A, b = np.eye(count), np.zeros(count)
-        for row in range(1, count - 1):
-            A[row, row - 1 : row + 2] = h[row - 1], 2.0 * (h[row - 1] + h[row]), h[row]
-            b[row] = 6.0 * (rise[row] - rise[row - 1])
-        if self.period is not None:
-            A[0], A[-1, 0] = 0.0, -1.0
-            A[0, 0], b[0] = 2.0 * (h[-1] + h[0]), 6.0 * (rise[0] - rise[-1])
-            A[0, 1] += h[0]
-            A[0, -2] += h[-1]
-        elif count == 3:  # a parabola
-            A[0, 1] = A[-1, 1] = -1.0
-        elif count > 3:  # the third derivative goes on over the second row, and over the last but one
-            A[0, :3] = h[1], -(h[0] + h[1]), h[0]
-            A[-1, -3:] = h[-1], -(h[-2] + h[-1]), h[-2]
-        bend = np.linalg.solve(A, b)
-        slope = rise - h * (2.0 * bend[:-1] + bend[1:]) / 6.0
-        return np.array([self.ys[:-1], slope, bend[:-1] / 2.0, np.diff(bend) / (6.0 * h)])
+        from scipy.interpolate import CubicSpline  # here: it takes longer to load than this package
+
+        if self.period is None:
+            return np.array(CubicSpline(self.xs, self.ys).c[::-1])
+        return np.array(CubicSpline(self.xs, [*self.ys[:-1], self.ys[0]], bc_type="periodic").c[::-1])
 
     def __str__(self) -> str:
         period = "" if self.period is None else f", period={self.period!r}"
@@ -188,6 +171,13 @@ class Curve:
         return f"Curve({self.xs.tolist()}, {self.ys.tolist()}{period}{name})"
 
     __repr__ = __str__
+
+
+def derived(rows: FloatArray, order: int) -> FloatArray:
+    """Return polynomials by powers, shape (k, n), as derivatives of an order."""
+    for _ in range(order):
+        rows = rows[1:] * np.arange(1, len(rows))[:, None] if len(rows) > 1 else np.zeros_like(rows)
+    return rows
 
 
 def column(what: str, given: npt.ArrayLike, owner: str) -> FloatArray:

@@ -47,9 +47,7 @@ class Crank(Step):
             raise DefinitionError(f"{self.sentence()}: a crank needs a driven angle; a fixed point is a Ground, one on a body OnLink.")
 
     def place(self, where: Where) -> Vec:
-        along = self.axes.vector(where, Vec(*where.turn(self.angle)))
-        length = where.value(self.PX)
-        arm = Vec(along.x * length, along.y * length)
+        arm: Vec = self.axes.vector(where, Vec(*where.turn(self.angle))) * where.value(self.PX)
         return where.at(self.P) + arm
 
     def joints(self) -> tuple[Joint, ...]:

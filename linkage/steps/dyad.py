@@ -6,7 +6,7 @@ from typing import Self
 
 from ..quantities import Axes, Operand, Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
-from .primitives import CosineAngle, Offset, Turn, Vector, triangle
+from .primitives import CosineAngle, triangle, turned_from_base
 from .step import UNBOUND, Assignment, Position, Step
 
 
@@ -70,14 +70,5 @@ class Dyad(Step):
         return where.at(self.P) - X, where.at(self.Q) - X
 
     def expansion(self) -> tuple[Assignment, ...]:
-        base = Vector(self.P, self.Q)
         angle = CosineAngle(distance(self.P, self.Q), self.PX, self.QX)
-        arm = Turn(base, angle if self.settled_side is Side.LEFT else -angle, length=self.PX)
-        return (
-            Assignment(self.word(self.P, self.X), self.PX),
-            Assignment(self.word(self.Q, self.X), self.QX),
-            Assignment(self.word(self.P, self.Q), base),
-            Assignment(self.word(self.Q, self.P, self.X), angle),
-            Assignment(self.word(self.P, self.X), arm),
-            Assignment(self.X, Offset(self.P, arm)),
-        )
+        return turned_from_base(self, "PQ", "QPX", angle, self.settled_side is Side.LEFT)

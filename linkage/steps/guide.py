@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Self
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..quantities import FRAME_AXES, Axes, Member, Operand, Quantity, Reference, Variable, Where, label, name_of, quantity, source_text
 from ..quantities.joint import Driven, Joint, Jointed, JointSide, guided
 from ..vectors import Line, Scalar, Vec
@@ -36,8 +36,8 @@ class Guide(Jointed):
     """The axes that its numbers are counted in."""
 
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Operand | None = None) -> None:
-        if P is None or (Q is None) == (angle is None):
-            raise DefinitionError("Guide: give its origin, and its direction by angle= or by a second point.")
+        is_whole = P is not None and (Q is None) != (angle is None)
+        ensure(is_whole, "Guide: give its origin, and its direction by angle= or by a second point.")
         if Q is not None and (P is Q or (isinstance(P, str) and P == Q)):
             raise DefinitionError(f"Guide({label(Q)}, {label(Q)}): its two points must be different.")
         self.fixed_at = None if isinstance(P, (str, Member)) else position(P, "Guide")

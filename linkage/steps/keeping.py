@@ -12,7 +12,7 @@ from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import reduce
 from math import isclose, pi, remainder
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from ..quantities import Angle, Axes, CurveValue, Distance, Jointed, Length, Member, Reference, Stroke, Variable, name_of, of_kind
 from ..quantities.member import needed_behind, needs
@@ -31,8 +31,7 @@ Terms: TypeAlias = frozenset[tuple[Hashable, float]]
 """Multiples of what is told apart by name."""
 
 
-@dataclass(frozen=True)
-class Form:
+class Form(NamedTuple):
     """A linear sum: multiples of terms with a key each, and a number [SI]."""
 
     terms: Terms = frozenset()

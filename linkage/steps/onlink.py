@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Self
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, ensure
 from ..quantities import Axes, Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
-from .primitives import CosineAngle, Offset, Turn, Vector, triangle
+from .primitives import CosineAngle, Vector, triangle, turned_from_base
 from .step import UNBOUND, Assignment, Position, Step
 
 
@@ -53,8 +53,7 @@ class OnLink(Step):
     def check(self) -> None:
         if self.PX is UNBOUND and self.drawn_at is None:
             raise self.missing(self.slots()[0])
-        if UNBOUND not in (self.PX, self.QX, self.QPX):
-            raise DefinitionError(f"{self.sentence()}: give the third side or the angle, not both.")
+        ensure(UNBOUND in (self.PX, self.QX, self.QPX), f"{self.sentence()}: give the third side or the angle, not both.")
         if self.QX is not UNBOUND and self.side is None and self.near is None and self.drawn_at is None:
             raise self.needs_side("a triangle of three sides lies on either side")
         if self.QX is UNBOUND and self.drawn_at is None:
@@ -147,16 +146,8 @@ class OnLink(Step):
         return ((self.P, self.Q, self.X),)
 
     def expansion(self) -> tuple[Assignment, ...]:
-        base, by_sides = Vector(self.P, self.Q), self.QX is not UNBOUND
-        given = Number(0.0) if self.QPX is UNBOUND else self.QPX
-        angle = CosineAngle(distance(self.P, self.Q), self.PX, self.QX) if by_sides else given
-        arm = Turn(base, -angle if self.sense_of_turn < 0.0 else angle, length=self.PX)
-        lengths = (Assignment(self.word(self.P, self.X), self.PX), Assignment(self.word(self.Q, self.X), self.QX))
-        return (
-            *lengths[: 2 if by_sides else 1],
-            Assignment(self.word(self.P, self.Q), base),
-            Assignment(self.word(self.X, self.P, self.Q) if by_sides else self.word(self.Q, self.P, self.X), angle),
-            Assignment(self.word(self.P, self.X), arm),
-            Assignment(self.X, Offset(self.P, arm)),
-            *([Assignment(self.word(self.Q, self.X), Vector(self.Q, self.X))] if by_sides else []),
-        )
+        is_left = self.sense_of_turn > 0.0
+        if self.QX is UNBOUND:
+            return turned_from_base(self, "P", "QPX", Number(0.0) if self.QPX is UNBOUND else self.QPX, is_left)
+        found = turned_from_base(self, "PQ", "XPQ", CosineAngle(distance(self.P, self.Q), self.PX, self.QX), is_left)
+        return *found, Assignment(self.word(self.Q, self.X), Vector(self.Q, self.X))

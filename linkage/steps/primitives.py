@@ -12,7 +12,7 @@ from ..frozen import immutable
 from ..quantities import FRAME_AXES, Axes, Driven, Joint, JointSide, Length, Operand, Quantity, label, quantity, source_text
 from ..quantities.member import Member, Reference, Turning, Where, joined_names, name_of
 from ..vectors import Line, Scalar, Vec
-from .step import Bar, Point, angle_given
+from .step import Assignment, Bar, Point, Step, angle_given
 
 
 class Arrow(Member):
@@ -319,3 +319,13 @@ class Offset(Point):
 
     def __str__(self) -> str:
         return f"Offset({label(self.P)}, {label(self.by)})"
+
+
+def turned_from_base(step: Step, sides: str, corner: str, angle: Quantity, is_left: bool) -> tuple[Assignment, ...]:
+    """Return the point X of a step, turned by an angle from its base P -> Q; of the sides and the angle by the letters of their points."""
+    lengths: dict[str, Quantity] = {f"{letter}X": getattr(step, f"{letter}X") for letter in sides}
+    base = Vector(*(getattr(step, letter) for letter in "PQ"))
+    arm = Turn(base, angle if is_left else -angle, length=lengths["PX"])
+    named = (*lengths.items(), ("PQ", base), (corner, angle), ("PX", arm))
+    found = [Assignment(step.word(*(getattr(step, letter) for letter in letters)), value) for letters, value in named]
+    return *found, Assignment(step.X, Offset(base.P, arm))

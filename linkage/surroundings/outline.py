@@ -477,8 +477,8 @@ def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.floa
     if not found:
         on = f" on {', '.join(layers)}; its layers: {', '.join(sorted({each.dxf.layer for each in every}))}" if layers else ""
         raise DefinitionError(f"{path}: there is no line{on}.")
-    if sum(map(len, found)) > MOST:
-        raise DefinitionError(f"{path}: {sum(map(len, found))} corners are more than a picture shows, {MOST}; name the layers to take.")
+    count = sum(map(len, found))
+    ensure(count <= MOST, f"{path}: {count} corners are more than a picture shows, {MOST}; name the layers to take.")
     return found
 
 

@@ -7,6 +7,7 @@ python -m tests.tools.catalogues --add    # the missing templates go into the .p
 from __future__ import annotations
 
 import ast
+import re
 import struct
 import sys
 from collections import Counter
@@ -77,6 +78,9 @@ def source_messages(package: str) -> dict[Message, str]:
     for file in sorted(each for each in (ROOT / package).rglob("*") if each.suffix in (".js", ".html")):
         for text in said_in(file.read_text(encoding="utf-8")):
             found.setdefault(Message(text), file.name)
+    if package == "linkage":  # another language writes units in its own way
+        units = re.findall(r'"([^"]+)": \(', sources()["linkage/units.py"])
+        found |= {Message(unit): "linkage/units.py" for unit in units if unit.isascii()}
     if package == "mechanisms":
         found |= {each: each.where for each in own_messages((*OF_PAPERS, *AT_WORK)) if each not in found}
     return found

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections import Counter, defaultdict
-from collections.abc import Mapping, Sequence
-from functools import cached_property
-from itertools import groupby, permutations
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property, partial
+from itertools import chain, groupby, permutations, zip_longest
 from pathlib import Path
 from typing import Any, cast
 
@@ -26,7 +27,7 @@ from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
 from ..reports import LiveColumn, column_requests, is_changing, request_in_case, results
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
-from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system, units_shown
+from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_sign, unit_system, units_shown
 from ..verdict import Verdict
 from .influence import influences
 from .labels import offsets
@@ -618,23 +619,44 @@ MARKS = {True: 1, False: 0, None: 2}
 """How verdicts are told: those that are kept, those that are not, and what is only said."""
 
 
-def verdict_data(machine: Mechanism, judge: Judge, along: Motion | None) -> tuple[list[list[object]], list[Verdict] | None]:
-    """Return rows of the machine's verdicts over all that a judge looks at, for the design that is delivered, and the verdicts.
+def verdicts_told(
+    name: str, machine: Mechanism, judge: Judge, along: Motion | None
+) -> tuple[list[tuple[int, str, str]], list[Verdict] | None]:
+    """Return the machine's verdicts over all that a judge looks at in a language, for the design that is delivered, and themselves.
 
-    A row is 1 where one is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence, and
-    both in Russian. Where verdicts are refused a row has the error's words, and instead of verdicts there is None.
+    Of each there is 1 where it is kept, 0 where it is not, 2 where it is only said, 3 where it says nothing; its heading and its sentence.
+    Where verdicts are refused a row has the error's words, and instead of verdicts there is None.
     """
-    said: dict[str, list[tuple[int, str, str]]] = {}
-    found: list[Verdict] | None = None
-    for name in ("en", "ru"):
-        with language(name), unwarned():
-            try:
-                found = verdicts_of(machine, judge, along)
-                said[name] = [(3 if each.is_rule and each.ok is None else MARKS[each.ok], each.heading, each.sentence) for each in found]
-            except LinkageError as error:
-                found, said[name] = None, [(MARKS[None], "", str(error))]
-    pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
-    return [[*english, *russian[1:]] for english, russian in pairs], found
+    with language(name), unwarned():
+        try:
+            found = verdicts_of(machine, judge, along)
+        except LinkageError as error:
+            return [(MARKS[None], "", str(error))], None
+        return [(3 if each.is_rule and each.ok is None else MARKS[each.ok], each.heading, each.sentence) for each in found], found
+
+
+def values_in(signs: Iterable[str]) -> re.Pattern[str]:
+    """Return the pattern of a number with the sign of its unit, where it has one."""
+    units = "|".join(re.escape(each) for each in sorted(signs, key=len, reverse=True))
+    return re.compile(rf"([-+]?\d+(?:\.\d+)?)(?: ({units})(?!\w))?")
+
+
+VALUES = values_in(UNITS)
+
+
+def russian_in_units(russian: str, plain: str, other: str, values: re.Pattern[str]) -> str | None:
+    """Return a Russian sentence with its values as another English one of the same words has them; None where these do not tell all.
+
+    `values` is the pattern of numbers with Russian signs of units.
+    """
+    before, after, found = VALUES.split(plain), VALUES.split(other), values.split(russian)
+    spoken = zip(before[1::3], (unit and translated(unit) for unit in before[2::3]), strict=True)
+    pairs = set(zip(spoken, zip(after[1::3], after[2::3], strict=True), strict=False))
+    known, own = dict(pairs), list(zip(found[1::3], found[2::3], strict=True))
+    if before[::3] != after[::3] or len(known) < len(pairs) or not set(own) <= known.keys():
+        return None
+    texts = [f"{number} {unit_sign(unit)}" if unit else number for number, unit in map(known.__getitem__, own)]
+    return "".join(chain.from_iterable(zip_longest(found[::3], texts, fillvalue="")))
 
 
 def verdicts_shown(requests: PageRequests) -> PageData:
@@ -642,24 +664,36 @@ def verdicts_shown(requests: PageRequests) -> PageData:
 
     Of each verdict there is the member that says it and whether it is of poses, and how members are headed.
     """
-    machine, judge, along = requests.machine, requests.judge, requests.along
+    told = partial(verdicts_told, machine=requests.machine, judge=requests.judge, along=requests.along)
+    machine, found = requests.machine, dict[str, list[Any]]()
     with units_shown() as shown_units:
-        (plain, verdicts), found = verdict_data(machine, judge, along), {}
+        english, verdicts = told("en")
+        russian, _ = told("ru")
+    russian = russian if len(russian) == len(english) else english
     shown_units |= {"mm", *(stroke_display_unit(machine.plan, name, "mm") for name in machine.strokes)}  # of places that were told before
+    with language("ru"):
+        values = values_in({translated(unit) for unit in UNITS})
     for name in SYSTEMS:
+        found[name] = [0] * len(english)
         with unit_system(name):
-            is_same = all(shown_in(unit) == unit for unit in shown_units)
-            told = plain if is_same else verdict_data(machine, judge, along)[0]
-        pairs = zip(told, plain, strict=True) if len(told) == len(plain) else ((each, each) for each in plain)
-        found[name] = [0 if each[2:] == other[2:] else [each[2], each[4]] for each, other in pairs]
+            others, _ = (english, None) if all(shown_in(unit) == unit for unit in shown_units) else told("en")
+            if len(others) != len(english) or others == english:
+                continue
+            with language("ru"):
+                told_as = zip(russian, english, others, strict=True)
+                rows = [russian_in_units(ru[2], en[2], other[2], values) for ru, en, other in told_as]
+            rows = [each[2] for each in told("ru")[0]] if None in rows else rows
+        pairs = zip(others, rows, english, russian, strict=True)
+        found[name] = [0 if (other[2], row) == (en[2], ru[2]) else [other[2], row] for other, row, en, ru in pairs]
+    plain = [[*en, *ru[1:]] for en, ru in zip(english, russian, strict=True)]
     shown: PageData = {"verdicts": plain, "verdictsIn": found}
     if verdicts is None:
         return shown | {"facts": [["", "", 0]], "groups": {}}
     members, groups = speakers(machine.plan, HasVerdicts), dict[str, list[str]]()
     for name in dict.fromkeys((*(each.member for each in verdicts if each.member), *members)):
         with language("ru"):
-            russian = translated(members[name].headed)
-        groups[name] = [typeset(text.format(name=name)) for text in (members[name].headed, russian)]
+            headings = members[name].headed, translated(members[name].headed)
+        groups[name] = [typeset(text.format(name=name)) for text in headings]
     of_poses = [isinstance(each.answer, Answer) and bool(each.answer.strokes) for each in verdicts]
     facts = [[each.member, rule_key(each.rule, each.member), int(is_one)] for each, is_one in zip(verdicts, of_poses, strict=True)]
     return shown | {"facts": facts, "groups": groups}

@@ -166,7 +166,7 @@ def print_cycle(options: Namespace) -> int:
         judged = judged_cycles(pump, machine.judge(overs_of(machine, options.over), Acting()))
         remedy = "give --program FILE, or declare a path in time, Over.path(lift=ramp(0.1, 0.3, speed=0.15)), with flow= of the pump"
         ensure(judged, f"{machine.plan.title}: no path in time that {pump.name} serves; {remedy}.")
-        found = [("; ".join(filter(None, (place.over.title, cycle.case))), cycle, place.motion) for place, cycle in judged]
+        found = [("; ".join(filter(None, (place.over.name, cycle.case))), cycle, place.motion) for place, cycle in judged]
     if options.csv != "-":
         for place, (words, cycle, _) in enumerate(found):
             head = [*([""] if place else []), *([f"{words}:", ""] if words else [])]

@@ -448,5 +448,5 @@ def pump_verdicts(pump: ForceElement, judge: Judge) -> list[Verdict]:
     if not found:
         return [Verdict("pump", None, said("its flow is not given, so that nothing tells how long it takes."))]
     place, worst = max(found, key=lambda each: each[1].stretch)
-    title = f"{place.over.title}: " if len(places) > 1 and place.over.title else ""
+    title = f"{place.over.name}: " if len(places) > 1 and place.over.name else ""
     return [Verdict("pump", worst.verdict.ok, title + worst.verdict.sentence)]

@@ -159,7 +159,7 @@ class Pump(Supply):
             found = judged_cycles(self, judge) if is_shared(self, judge) else []
         except DefinitionError:  # the verdict says why
             return []
-        named = [("; ".join(filter(None, (place.over.title, each.case))) if len(found) > 1 else "", each) for place, each in found]
+        named = [("; ".join(filter(None, (place.over.name, each.case))) if len(found) > 1 else "", each) for place, each in found]
         return [from_above("hydraulics.cycle_chart:cycle_section")(named)] if found else []
 
     # -- in time -------------------------------------------------------------------------------------------

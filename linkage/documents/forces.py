@@ -146,7 +146,7 @@ def rows_of_cases(subject: ReportSubject) -> dict[str, Sequence[PinLoad] | Linka
 
 def worst_rows(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | LinkageError]) -> list[PinLoad]:
     """Return the largest force of each joint over all load cases, of a tie that of the first `Over`; nothing where a case has none."""
-    titles = [place.over.title for place in subject.judge.places]
+    titles = [place.over.name for place in subject.judge.places]
     worst: dict[tuple[str, str, str, str], PinLoad] = {}
     for rows in cases.values():
         if isinstance(rows, LinkageError):

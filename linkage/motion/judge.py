@@ -125,22 +125,46 @@ class SearchRow:
 
 
 @dataclass(frozen=True, eq=False)
-class WorstPiece:
-    """The worst of a row over one `Over`: its value and strokes, arrays over the designs; shares of the places asked for."""
+class Candidate:
+    """The worst of rows that occur at once over one `Over`: a value and where, arrays over the designs; shares of the places asked for.
 
-    row: SearchRow
+    A row by itself has no margin. A question has one, below zero where it is not kept.
+    """
+
+    rows: tuple[SearchRow, ...]
     value: FloatArray
     strokes: Mapping[str, FloatArray]
     unbounded: Mask
     lawless: PerDesign = 0.0
     unlimited: PerDesign = 0.0
     time: PerDesign = np.nan
+    margin: PerDesign = np.nan
+    undefined: PerDesign = False
+    """Whether its measures have values and what is calculated from these has none, such as 0 / 0 or the root of what is negative."""
+    seen: Coverage | None = None
+    """What was seen over its `Over`; None where it is only about poses that the question itself says."""
+    design: tuple[int, ...] = ()
+
+    @cached_property
+    def situation(self) -> Situation:
+        """The situation in which its rows occur."""
+        return situation_found(self.rows)
 
     @property
-    def mover(self) -> Hashable:
-        """The drive of its direction: a cylinder's name, None for a stroke or a path."""
-        quantity = self.row.leaf.quantity
-        return quantity.mover if isinstance(quantity, Request) else None
+    def side(self) -> str:
+        """The side of the cylinder that it belongs to, "" for none."""
+        return next((each.piece.side for each in self.rows if each.piece.side), "")
+
+    def of_design(self, place: tuple[int, ...], shape: tuple[int, ...]) -> Candidate:
+        """Return that of one design of a batch of some shape, by its place in it."""
+        if not shape:  # it is the only one
+            return self
+        own = {
+            name: np.broadcast_to(getattr(self, name), shape)[place]
+            for name in ("value", "margin", "unbounded", "lawless", "unlimited", "time", "undefined")
+        }
+        strokes = {name: np.broadcast_to(value, shape)[place] for name, value in self.strokes.items()}
+        return replace(self, strokes=strokes, design=place, **own)
 
 
 class Domain:
@@ -291,16 +315,16 @@ class Domain:
             raise DefinitionError(f"{what}, where there are {', '.join(occurring)}.")
         return [name]
 
-    def extremes(self, rows: Sequence[SearchRow]) -> tuple[list[WorstPiece], Coverage]:
+    def extremes(self, rows: Sequence[SearchRow]) -> tuple[list[Candidate], Coverage]:
         """Return the worst of every row, and the coverage of the search; equal designs are searched once."""
         searched = ["nothing" if row.request is zeros_over else identity_of(self.plan, row.request) for row in rows]
         if self.over.only or None in searched:  # as of a function, which may change
             return self.searched(rows)
         looked_for = [(each, row.sense, row.is_reciprocal, row.stays_at_zero) for each, row in zip(searched, rows, strict=True)]
         found, seen = recalled(self.motion, ("extremes", self.over.shape, *looked_for), lambda: self.searched(rows))
-        return [replace(each, row=row) for each, row in zip(found, rows, strict=True)], replace(seen)
+        return [replace(each, rows=(row,)) for each, row in zip(found, rows, strict=True)], replace(seen)
 
-    def searched(self, rows: Sequence[SearchRow]) -> tuple[list[WorstPiece], Coverage]:
+    def searched(self, rows: Sequence[SearchRow]) -> tuple[list[Candidate], Coverage]:
         """Return the same, looked for."""
         asked, shape = RowFunction(self, rows), (len(rows), *self.motion._design_shape)
         time = np.full(shape, np.nan)
@@ -320,7 +344,7 @@ class Domain:
             strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}
             time = np.broadcast_to(np.asarray(found.time), shape)
         lawless, unlimited = (np.broadcast_to(each, shape) for each in (asked.seen.lawless, asked.seen.unlimited))
-        pieces = list[WorstPiece]()
+        pieces = list[Candidate]()
         for k, row in enumerate(rows):
             where, worst = {name: each[k] for name, each in strokes.items()}, row.sense * value[k]
             if row.is_reciprocal:  # NaN where it has no bound anywhere
@@ -328,7 +352,7 @@ class Domain:
                     worst = np.where(value[k] > 0.0, 1.0 / value[k], np.nan)
             elif row.stays_at_zero:
                 worst = np.maximum(value[k], 0.0)
-            pieces.append(WorstPiece(row, np.asarray(worst), where, unbounded[k], lawless[k], unlimited[k], time[k]))
+            pieces.append(Candidate((row,), np.asarray(worst), where, unbounded[k], lawless[k], unlimited[k], time[k]))
         return pieces, asked.seen
 
     # -- what is lost ------------------------------------------------------------------------------------
@@ -544,38 +568,6 @@ def values_over(motion: Motion, quantity: Any) -> FloatArray:
 # Questions.
 
 
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A question in one situation over one `Over`: its value, its margin (below zero where not kept), arrays over designs, and where."""
-
-    value: FloatArray
-    margin: FloatArray
-    strokes: Mapping[str, FloatArray]
-    unbounded: Mask
-    situation: Situation
-    side: str
-    place: Domain
-    seen: Coverage | None
-    """What was seen over its `Over`; None where it is only about poses that the question itself says."""
-    lawless: FloatArray
-    unlimited: FloatArray
-    time: FloatArray
-    undefined: Mask
-    """Whether its measures have values and what is calculated from these has none, such as 0 / 0 or the root of what is negative."""
-    design: tuple[int, ...] = ()
-
-    def of_design(self, place: tuple[int, ...], shape: tuple[int, ...]) -> Candidate:
-        """Return that of one design of a batch of some shape, by its place in it."""
-        if not shape:  # it is the only one
-            return self
-        own = {
-            name: np.broadcast_to(getattr(self, name), shape)[place]
-            for name in ("value", "margin", "unbounded", "lawless", "unlimited", "time", "undefined")
-        }
-        strokes = {name: np.broadcast_to(value, shape)[place] for name, value in self.strokes.items()}
-        return replace(self, strokes=strokes, design=place, **own)
-
-
 class Judge:
     """Who answers questions about some designs of a machine: over all of its `overs`, in all that acts."""
 
@@ -599,7 +591,7 @@ class Judge:
             if isinstance(over, Over):
                 over.check(plan.title, plan.strokes, cases)
         self.places = tuple(Domain(plan, designs, over) for over in overs)
-        self._found: list[dict[Any, tuple[Leaf, list[WorstPiece]]]] = [{} for _ in self.places]
+        self._found: list[dict[Any, tuple[Leaf, list[Candidate]]]] = [{} for _ in self.places]
         self._seen: list[Coverage] = [Coverage() for _ in self.places]
         self._lost: dict[Any, LostPlaces] = {}
         self._made = dict[Hashable, Any]()
@@ -658,7 +650,7 @@ class Judge:
 
     def actings(self, request: Request, over: str = "") -> list[Acting]:
         """Return the situations in which a request is judged. `over` is the title of one `Over`; without it all count."""
-        asked, places = request.under(self.acting), [place for place in self.places if place.over.title == over] or self.places
+        asked, places = request.under(self.acting), [place for place in self.places if place.over.name == over] or self.places
         found = dict.fromkeys(each for place in places for each in place.situations(asked, self.acting))
         return [each.acting.within(self.acting) for each in found]
 
@@ -791,14 +783,13 @@ class Judge:
             return [constraint]
         return [replace(constraint, left=replace(leaf, quantity=row.piece.request)) for row in rows]
 
-    def at_pose(self, row: SearchRow, place: Domain) -> WorstPiece:
+    def at_pose(self, row: SearchRow, place: Domain) -> Candidate:
         """Return the value of a row at the one pose that its leaf says."""
         leaf = row.leaf
         assert isinstance(leaf, At)
-        only = next(iter(self.plan.strokes)) if len(self.plan.strokes) == 1 else ""
         behind = strokes_behind(self.plan, leaf.quantity)
         missing = [name for name in behind if name not in leaf.strokes]
-        ensure(not missing, f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing or [only])}.")
+        ensure(not missing, f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing)}.")
         start = {name: stroke.start for name, stroke in self.plan.strokes.items()}
         strokes = at_values(start | dict(leaf.strokes), self.plan)
         motion = Motion(self.plan, self.designs, strokes, "nan")
@@ -808,12 +799,12 @@ class Judge:
             values, unlimited = RowFunction(place, [row]).row_values(motion)
         value = np.asarray(values[0])
         where = {name: np.broadcast_to(np.asarray(each), value.shape) for name, each in strokes.items()} if behind else {}
-        return WorstPiece(row, value, where, np.isinf(value), 1.0 * (np.isnan(value) & ~unlimited[0]), 1.0 * unlimited[0])
+        return Candidate((row,), value, where, np.isinf(value), 1.0 * (np.isnan(value) & ~unlimited[0]), 1.0 * unlimited[0])
 
     # -- from leaves to questions ------------------------------------------------------------------------
 
-    def candidates(self, question: object, number: int) -> list[Candidate]:
-        """Return a constraint, or a bare measure, in every situation over one `Over`, by its number."""
+    def candidates(self, question: object, number: int) -> list[tuple[Domain, Candidate]]:
+        """Return a constraint, or a bare measure, in every situation over one `Over`, by its number, each with where it is looked at."""
         leaves, of_poses = leaves_of(question), is_at_poses(question)
         place, seen = (self.anywhere, None) if of_poses else (self.places[number], self._seen[number])
         made = []
@@ -823,23 +814,21 @@ class Judge:
             with np.errstate(all="ignore"):
                 value, margin = valued(question, values)
             unbounded = np.asarray(np.any([each.unbounded for each in chosen], axis=0) if chosen else False)
-            where = next((each.strokes for each in chosen if each.strokes), {})
-            side = next((each.row.piece.side for each in chosen if each.row.piece.side), "")
+            where, time = next(((each.strokes, each.time) for each in chosen if each.strokes), ({}, np.nan))
             lawless = np.asarray(reduce(np.fmax, (each.lawless for each in chosen), 0.0))
             unlimited = np.asarray(reduce(np.fmax, (each.unlimited for each in chosen), 0.0))
             undefined = np.asarray(np.isnan(margin) & ~np.any([np.isnan(each.value) for each in chosen], axis=0))
-            situation = situation_found(chosen)
-            time = np.asarray(next((each.time for each in chosen if each.strokes), np.nan))
-            made.append(Candidate(value, margin, where, unbounded, situation, side, place, seen, lawless, unlimited, time, undefined))
+            rows = tuple(each.rows[0] for each in chosen)
+            made.append((place, Candidate(rows, value, where, unbounded, lawless, unlimited, np.asarray(time), margin, undefined, seen)))
         return made
 
-    def lost_of(self, candidate: Candidate) -> LostPlaces:
+    def lost_of(self, place: Domain, candidate: Candidate) -> LostPlaces:
         """Return the lost places of a candidate of one design."""
         seen = candidate.seen
         if seen is not None:
-            key = (id(candidate.place), candidate.design, current_language(), current_system())  # as it is told there
+            key = (id(place), candidate.design, current_language(), current_system())  # as it is told there
             if key not in self._lost:
-                self._lost[key] = candidate.place.lost_places(seen.of_design(candidate.design))
+                self._lost[key] = place.lost_places(seen.of_design(candidate.design))
             return self._lost[key]
         if not candidate.lawless or not np.isnan(candidate.value):
             return NONE_LOST
@@ -853,39 +842,37 @@ class Judge:
         count = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1
         candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number)]
         ensure(candidates, f"{self.plan.title}: {question}: there is nothing to ask it of.")
-        shape = np.broadcast_shapes(*(np.shape(each.margin) for each in candidates))
-        margins = np.stack([np.broadcast_to(each.margin, shape) for each in candidates])
-        each_of = [
-            self.answered(question, [each.of_design(design, shape) for each in candidates], margins[:, *design])
-            for design in np.ndindex(shape)
-        ]
-        return of_batch(each_of, shape)
+        shape = np.broadcast_shapes(*(np.shape(each.margin) for _, each in candidates))
+        of_designs = ([(place, each.of_design(design, shape)) for place, each in candidates] for design in np.ndindex(shape))
+        return of_batch([self.answered(question, each) for each in of_designs], shape)
 
-    def answered(self, question: object, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
+    def answered(self, question: object, found: Sequence[tuple[Domain, Candidate]]) -> Answer:
         """Return the answer of one design, with the names of load case, movement and `Over` where there are several."""
-        is_bare = isinstance(question, Measure)
-        lost = next(filter(None, map(self.lost_of, candidates)), NONE_LOST)
-        fatal = [
-            each for each in candidates
-            if each.undefined or ((each.seen is None or each.place.over.lost != ALLOWED) and (each.lawless or self.lost_of(each)))
-        ]  # fmt: skip
-        known = [k for k, each in enumerate(candidates) if not np.isnan(margins[k])]
-        place = min(known, key=lambda k: margins[k], default=0)
-        worst, value, strokes, kept = candidates[place], np.nan, dict[str, float](), False
-        if known and np.isfinite(margins[place]):  # of a tie the place of the first: `Over`, case, extending before retracting
-            near = TIE * (abs(margins[place]) + abs(float(worst.value)))
-            first = next(k for k in known if margins[k] <= margins[place] + near)
-            worst = replace(candidates[first], value=worst.value)
+        is_bare, candidates, margins = isinstance(question, Measure), [each for _, each in found], [each.margin for _, each in found]
+        losses = [self.lost_of(*each) for each in found]
+        lost = next(filter(None, losses), NONE_LOST)
+        fatal = any(
+            each.undefined or ((each.seen is None or place.over.lost != ALLOWED) and (each.lawless or own_lost))
+            for (place, each), own_lost in zip(found, losses, strict=True)
+        )
+        known = [k for k, margin in enumerate(margins) if not np.isnan(margin)]
+        least = min(known, key=lambda k: margins[k], default=0)
+        worst, value, strokes, kept = candidates[least], np.nan, dict[str, float](), False
+        place = found[least][0]
+        if known and np.isfinite(margins[least]):  # of a tie the place of the first: `Over`, case, extending before retracting
+            near = TIE * (abs(margins[least]) + abs(float(worst.value)))
+            first = next(k for k in known if margins[k] <= margins[least] + near)
+            place, worst = found[first][0], replace(candidates[first], value=worst.value)
         if known:
             value, strokes = float(worst.value), {name: float(each) for name, each in worst.strokes.items()}
-            kept = bool(margins[place] >= 0.0)
+            kept = bool(margins[least] >= 0.0)
             status = UNBOUNDED if worst.unbounded and (is_bare or not kept) else LOST if kept and fatal and not is_bare else OF_VALUE
         else:
             status = LOST if fatal or any(each.lawless for each in candidates) else NOTHING_LEFT
         ok = None if is_bare or status == NOTHING_LEFT else kept and not fatal
         kinds: dict[str, set[Any]] = {
             "case": {each.situation.case for each in candidates}, "direction": {each.situation.direction for each in candidates},
-            "drive": {each.situation.drive for each in candidates} - {""}, "over": {each.place.over for each in candidates},
+            "drive": {each.situation.drive for each in candidates} - {""}, "over": {each.over for each, _ in found},
             "side": {each.side for each in candidates if each.situation.direction == worst.situation.direction},
         }  # fmt: skip
         named = frozenset(name for name, each in kinds.items() if len(each) > 1)
@@ -898,7 +885,7 @@ class Judge:
         outside = float(np.asarray(worst.seen.outside)[worst.design]) if worst.seen is not None else 0.0
         return Answer(
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
-            worst.place.over.name, lost, float(worst.unlimited), outside, worst.place.width if worst.seen is not None else {}, count, units,
+            place.over.name, lost, float(worst.unlimited), outside, place.width if worst.seen is not None else {}, count, units,
             measures_of(self.plan, question), float(worst.time) if known else np.nan, named,
         )  # fmt: skip
 
@@ -985,25 +972,26 @@ def key_of(plan: Plan, quantity: object) -> Hashable:
     return id(quantity) if identity is None else identity
 
 
-def combined_pieces(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece, ...]]:
+def combined_pieces(of_leaves: Sequence[Sequence[Candidate]]) -> list[tuple[Candidate, ...]]:
     """Return the pieces of several leaves that occur at once, all there are.
 
     They are in the same load case, where they name one, and either at rest or moving: what is at rest only, as nothing has friction,
     goes with both. What the same stroke, path or cylinder moves goes the same way.
     """
-    moves = {id(each): any(one.row.situation.acting.is_moving for one in pieces) for pieces in of_leaves for each in pieces}
+    moves = {id(each): any(one.situation.acting.is_moving for one in pieces) for pieces in of_leaves for each in pieces}
 
-    def at_once(a: WorstPiece, b: WorstPiece) -> bool:
-        one, other = a.row.situation, b.row.situation
+    def at_once(a: Candidate, b: Candidate) -> bool:
+        one, other = a.situation, b.situation
         if one.case and other.case and one.case != other.case:
             return False
         if not (one.direction and other.direction):
             return True
         if one.acting.is_moving != other.acting.is_moving:
             return not moves[id(b if one.acting.is_moving else a)]
-        return a.mover != b.mover or (one.direction, one.drive) == (other.direction, other.drive)
+        movers = (getattr(each.rows[0].leaf.quantity, "mover", None) for each in (a, b))
+        return len({*movers}) > 1 or (one.direction, one.drive) == (other.direction, other.drive)
 
-    found: list[tuple[WorstPiece, ...]] = [()]
+    found: list[tuple[Candidate, ...]] = [()]
     for pieces in of_leaves:
         found = [(*chosen, each) for chosen in found for each in pieces if all(at_once(one, each) for one in chosen)]
     return found
@@ -1019,27 +1007,28 @@ def is_worst_bound(question: object) -> bool:
     )  # fmt: skip
 
 
-def worst_pieces(pieces: Sequence[WorstPiece]) -> list[WorstPiece]:
+def worst_pieces(pieces: Sequence[Candidate]) -> list[Candidate]:
     """Return the worst of the pieces of a leaf in each situation, the first of equal ones, design by design."""
-    found: dict[Situation, WorstPiece] = {}
+    found: dict[Situation, Candidate] = {}
     for each in pieces:
-        known = found.setdefault(each.row.situation, each)
+        known = found.setdefault(each.situation, each)
         if known is each:
             continue
+        (one,), (other,) = known.rows, each.rows
         with np.errstate(invalid="ignore"):
-            takes = np.asarray((each.row.sense * (each.value - known.value) > 0.0) | np.isnan(known.value))
-        side = each.row.piece.side if takes.all() else "" if takes.any() else known.row.piece.side
-        row = replace(known.row, piece=replace(known.row.piece, side=side))
+            takes = np.asarray((other.sense * (each.value - known.value) > 0.0) | np.isnan(known.value))
+        side = each.side if takes.all() else "" if takes.any() else known.side
+        row = replace(one, piece=replace(one.piece, side=side))
         own = {name: np.where(takes, getattr(each, name), getattr(known, name)) for name in ("value", "unbounded", "time")}
         strokes = {name: np.where(takes, value, known.strokes[name]) for name, value in each.strokes.items()}
-        shares = np.maximum(known.lawless, each.lawless), np.minimum(known.unlimited, each.unlimited)
-        found[row.situation] = WorstPiece(row, own["value"], strokes, own["unbounded"], *shares, own["time"])
+        lawless, unlimited = np.maximum(known.lawless, each.lawless), np.minimum(known.unlimited, each.unlimited)
+        found[row.situation] = replace(known, rows=(row,), strokes=strokes, lawless=lawless, unlimited=unlimited, **own)
     return [*found.values()]
 
 
-def situation_found(chosen: Sequence[WorstPiece]) -> Situation:
-    """Return the situation of pieces that occur at once: their load case, and their movement where one of them moves."""
-    every = [each.row.situation for each in chosen]
+def situation_found(rows: Sequence[SearchRow]) -> Situation:
+    """Return the situation of rows that occur at once: their load case, and their movement where one of them moves."""
+    every = [each.situation for each in rows]
     ways = [each for each in every if each.acting.is_moving] or [each for each in every if each.direction] or [Situation()]
     return Situation(next((each.case for each in every if each.case), ""), ways[0].direction, ways[0].drive)
 
@@ -1071,7 +1060,7 @@ def measures_of(plan: Plan, question: object) -> str:
     return ""
 
 
-def integrated(row: SearchRow, place: Domain) -> WorstPiece:
+def integrated(row: SearchRow, place: Domain) -> Candidate:
     """Return the integral of a row over the one stroke that runs."""
     plan, leaf = place.plan, row.leaf
     assert isinstance(leaf, Integral)
@@ -1092,4 +1081,4 @@ def integrated(row: SearchRow, place: Domain) -> WorstPiece:
         return np.asarray(found[0][..., np.argsort(order)])
 
     total = quadrature(values).value * span
-    return WorstPiece(row, np.asarray(total), {}, np.isinf(total), float(np.isnan(total).any()), 0.0)
+    return Candidate((row,), np.asarray(total), {}, np.isinf(total), float(np.isnan(total).any()), 0.0)

@@ -254,7 +254,7 @@ def is_pushed(judge: Judge, stroke: str) -> bool:
 
 def domain_words(judge: Judge) -> str:
     """Return all that a judge looks at in words: the strokes of each `Over`, with its name where there are several."""
-    named = [(place.over.title if len(judge.places) > 1 else "", place.over.words(place.motion)) for place in judge.places]
+    named = [(place.over.name if len(judge.places) > 1 else "", place.over.words(place.motion)) for place in judge.places]
     return "; ".join(f"{name}: {words}" if name else words for name, words in named)
 
 

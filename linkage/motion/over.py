@@ -377,11 +377,6 @@ class Over(Member):
 
     # -- in words ----------------------------------------------------------------------------------------
 
-    @property
-    def title(self) -> str:
-        """Its name in the class; "" for one that is not of it."""
-        return self.name
-
     def words(self, motion: MotionLike) -> str:
         """Return its strokes in words: `phi = 15 to 80 deg, t = 0 mm`; of a path those that each passes.
 

@@ -389,22 +389,17 @@ class InBox:
         found = {name: low + (self.high[name] - low) * share.get(name, still) for name, low in self.low.items()}
         return {name: np.where(share.get(name, still) == 1.0, self.high[name], value) for name, value in found.items()}
 
-    def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
-        """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
+    def at(self, design: Index, places: FloatArray, f: Function | None = None) -> tuple[FloatArray, Mask]:
+        """Return the values (K, u, n) at places (u, n, k) of a design each (u,), or those of `f`, and which poses (u, n) are reached."""
         motion, slot, shape = self._poses(design, places)
-        seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
+        seen = self.sense * values_of(f or self.f, motion, everywhere=self.everywhere)
         self.count += motion.reached.size
         return seen.reshape(-1, *shape)[:, design, slot], motion.reached.reshape(shape)[design, slot]
 
     def one_function(self, function: int, design: Index, places: FloatArray) -> FloatArray:
         """Return the values (u, n) of one function at places (u, n, k) of a design each (u,)."""
-        f: object = self.f
-        if not isinstance(f, Bounded):
-            return np.asarray(self.at(design, places)[0][function])
-        motion, slot, shape = self._poses(design, places)
-        seen = self.sense * values_of(f.row(function), motion, everywhere=self.everywhere)
-        self.count += motion.reached.size
-        return np.asarray(seen.reshape(shape)[design, slot])
+        alone, row = (self.f.row(function), 0) if isinstance(self.f, Bounded) else (None, function)
+        return np.asarray(self.at(design, places, alone)[0][row])
 
     def is_kept(self, design: Index, places: FloatArray) -> Mask:
         """Return which places (u, n, k) of a design each (u,) are asked for and reached."""

@@ -131,8 +131,8 @@ class StrokeLine:
         Ends of groups are known already, found on the way. The others are looked for together.
         """
         found = np.array(pairs, float).reshape(-1, 2)
-        sought = np.zeros(len(found), bool)
-        for k, (inside, outside) in enumerate(pairs):
+        sought = np.full(len(found), not self.plan.solved)
+        for k, (inside, outside) in enumerate(pairs if self.plan.solved else ()):
             at = np.linspace(inside, outside, 65)
             seen = self.motion_at(at)
             known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]

@@ -414,7 +414,7 @@ def stroke_data(requests: PageRequests) -> list[PageData]:
         turn = all(abs(way[-1] - way[0]) <= ROUND * np.ptp(way) for way in run.ways.values())
         path: dict[int, list[float]] = {names.index(name): list(way) for name, way in run.ways.items()}
         places = enumerate(requests.questions.judge.places if requests.along is None else ())
-        own = [(k, each.over.name) for k, each in places if each.over.name and each.over.shape == "path" and each.over.title == run.title]
+        own = [(k, each.over.name) for k, each in places if each.over.name and each.over.shape == "path" and each.over.name == run.title]
         name, over = (own[0][1], {"over": own[0][0]}) if own else (ALONG, {})
         place = {"name": name, "start": first, "end": last, "at": first, "unit": "", "factor": 1.0}
         if run.instants is not None:

@@ -51,7 +51,7 @@ class PageSituation:
 def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[PageSituation], list[int]]:
     """Return the situations of a page, that of its first run first, then all load cases judged, and which of them each `Over` has."""
     of_places = [PageSituation(case_shown(machine, each), each.motion if each.instants is not None else None) for each in judge.places]
-    own = [each for each, place in zip(of_places, judge.places, strict=True) if place.over.title == run.title and each.motion is not None]
+    own = [each for each, place in zip(of_places, judge.places, strict=True) if place.over.name == run.title and each.motion is not None]
     first = own[0] if run.instants is not None and own else PageSituation(run.case)
     named = [(name, case_of(machine.plan, name)) for name in judge.cases if any(each.instants is None for each in judge.places)]
     others = [None if name == PLAIN_CASE else name for name, case in named if not case.shut and case.only is None]  # of the same bodies

@@ -89,7 +89,7 @@ def run_over(machine: Mechanism, place: Domain, acting: Acting) -> Run:
     ways = {name: tuple(strokes[name]) for name in running}
     still = {name: values[0] for name, values in strokes.items() if name not in running}
     declared = place.over if place.instants is not None else None
-    return Run(ways, still, place.over.title, case, place.over.shape == "poses", worst, declared, place.instants)
+    return Run(ways, still, place.over.name, case, place.over.shape == "poses", worst, declared, place.instants)
 
 
 def run_words(machine: Mechanism, run: Run) -> str:

@@ -232,12 +232,9 @@ class Speeds:
     def spin(self, body: int) -> FloatArray:
         """Return a body's angular velocity, shape (n,) [rad/s, or per unit of the drive]."""
         if body not in self._spins:
-            axis = self.axis(body)
-            if axis is None:
-                self._spins[body] = np.zeros(self.poses.count)
-            else:
-                arm = self.poses.at(axis[1]) - self.poses.at(axis[0])
-                rate = self.point(axis[1]) - self.point(axis[0])
+            axis, self._spins[body] = self.axis(body), np.zeros(self.poses.count)
+            if axis is not None:
+                arm, rate = (at(axis[1]) - at(axis[0]) for at in (self.poses.at, self.point))
                 self._spins[body] = np.asarray(cross(arm, rate) / (arm[0] ** 2 + arm[1] ** 2))
         return self._spins[body]
 

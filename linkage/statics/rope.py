@@ -253,15 +253,15 @@ class Rope(ForceElement, Tabled, HasVerdicts):
     def tie(self, members: NamedMembers) -> Tie | None:
         if self.force is not None:
             return None
-        gives = self.gives(members)
+        gives, pushes = self.gives(members), partial(self.pulls, tension=-1.0)
         if not gives:
-            return Tie(self.name, (), held=False, run=Reeving(self._pushes))
+            return Tie(self.name, (), held=False, run=Reeving(pushes))
         back, length = self.drawn_back_by(members), quantity(self.given("length"))
 
         def rate(motion: Poses, stroke: str) -> FloatArray:
             return np.asarray(motion.ratio(length, wrt=stroke))
 
-        run = Reeving(self._pushes, strokes_alone(length, members), rate)  # strokes that it follows by itself are those of winches
+        run = Reeving(pushes, strokes_alone(length, members), rate)  # strokes that it follows by itself are those of winches
         if back is not None:
             run = replace(run, back=back.name, back_loads=back.back_pushes, back_share=back.share_against)
         return Tie(self.name, (), held=False, cut=self.cut, gives=gives, run=run)
@@ -313,9 +313,6 @@ class Rope(ForceElement, Tabled, HasVerdicts):
             The forces [N].
         """
         return self.pulls(motion, self.share_against(motion))
-
-    def _pushes(self, motion: Poses) -> list[Load]:
-        return self.pulls(motion, -1.0)
 
     @takes_situation
     def tension(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> FloatArray:

@@ -124,7 +124,7 @@ def pace_remarks(judge: Judge) -> list[Remark]:
     """Return over which paths in time the inertia of a machine's masses is left out, or a start or a stop that takes no time."""
     found = list[str]()
     for place in judge.places if has_masses(judge.plan) else []:
-        name, jump = f"{place.over.title}: " if len(judge.places) > 1 else "", place.motion._rate_jump
+        name, jump = f"{place.over.name}: " if len(judge.places) > 1 else "", place.motion._rate_jump
         sudden = [] if place.instants is None else [stroke for stroke, each in place.instants.courses.items() if each.starts_at_once]
         if jump is not None:
             text = said("{jump}, so that inertia is left out: give its ramp an acceleration, or take a smooth course.", jump=jump[1])

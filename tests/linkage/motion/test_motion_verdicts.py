@@ -230,4 +230,4 @@ def test_what_hydraulics_brings_judges_itself(kind):
     ],
 )
 def test_a_movement_goes_before_one_without_friction_and_that_before_none(pieces, found):
-    assert situation_found([SimpleNamespace(row=SimpleNamespace(situation=each)) for each in pieces]) == found
+    assert situation_found([SimpleNamespace(situation=each) for each in pieces]) == found

@@ -841,7 +841,8 @@ class Judge:
         """Return the answer to a question: its worst in every situation over every `Over`, for a batch per design."""
         count = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1
         candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number)]
-        ensure(candidates, f"{self.plan.title}: {question}: there is nothing to ask it of.")
+        if not candidates:
+            raise DefinitionError(f"{self.plan.title}: {question}: there is nothing to ask it of.")
         shape = np.broadcast_shapes(*(np.shape(each.margin) for _, each in candidates))
         of_designs = ([(place, each.of_design(design, shape)) for place, each in candidates] for design in np.ndindex(shape))
         return of_batch([self.answered(question, each) for each in of_designs], shape)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..assembly import lost_at_sketch
-from ..errors import AssemblyError, DefinitionError
+from ..errors import AssemblyError, DefinitionError, SingularError
 from ..frozen import FrozenDict, refuses_changes
 from ..language import ENGLISH, language, said, said_of, translated
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
@@ -263,6 +263,13 @@ def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, object]) -> str:
     """Return which poses are meant as errors and warnings say it, in English: `at 7 of 101 strokes, from S = 159.8 to 170.0 mm`."""
     with language(ENGLISH):
         return where_said(plan, mask, strokes)
+
+
+def refuse_at(motion: Any, mask: Mask, before: str, after: str) -> None:
+    """Raise SingularError at the poses of a mask, unless NaN was asked for; where they are stands between the words before and after."""
+    if mask.any() and motion.unreachable == "raise":
+        text = f"{before} {where_words(motion.plan, mask, motion.strokes)}{after}"
+        raise SingularError(text, mask=mask, motion=motion)
 
 
 def where_said(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:

@@ -75,7 +75,8 @@ class Measure(Arithmetic):
         """Apply an operation to measures and numbers; DefinitionError for any other of NumPy's functions."""
         if function == "negative":
             return CombinedMeasure("*", FixedNumber(-1.0), self)
-        ensure(function in UFUNCS, f"{self}: measures take + - * / **; take np.{function} of the quantity in it.")
+        if function not in UFUNCS:
+            raise DefinitionError(f"{self}: measures take + - * / **; take np.{function} of the quantity in it.")
         left, right = map(as_measure, operands)
         return CombinedMeasure(UFUNCS[function], left, right)
 

@@ -29,7 +29,7 @@ from .dead_points import Conditioning
 from .evaluation import BulkProgram, Evaluation, examined, guard_masks, other_law_error
 from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
 from .instants import Instants
-from .limits import Limits, no_joint, span_text, stroke_unit, where_words
+from .limits import Limits, no_joint, refuse_at, span_text, stroke_unit, where_words
 from .over import Over, with_strokes
 from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import Request, RequestLike, Value, as_they_run, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
@@ -643,10 +643,8 @@ class Motion(Shown):
         scaled = np.where(known[..., None, None], matrix, np.eye(len(wanted))) * spans / np.where(sizes > 0.0, sizes, 1.0)[..., None]
         found = np.linalg.svd(scaled, compute_uv=False)
         dead: Mask = np.asarray(known & ~(found[..., -1] * dead_points.REFUSE > np.maximum(found[..., 0], 1.0)))
-        if dead.any() and self.unreachable == "raise":
-            where = where_words(self.plan, dead, self.strokes)
-            text = f"{title}: no stroke rates give {', '.join(dict.fromkeys(names))} {where}, at a dead point of the drive"
-            raise SingularError(f'{text}. Leave these poses out, or ask with unreachable="nan".', mask=dead, motion=self)
+        what = f"{title}: no stroke rates give {', '.join(dict.fromkeys(names))}"
+        refuse_at(self, dead, what, ', at a dead point of the drive. Leave these poses out, or ask with unreachable="nan".')
         solvable = (known & ~dead)[..., None, None]
         found = np.linalg.solve(np.where(solvable, matrix, np.eye(len(wanted))), right)[..., 0]
         found = np.asarray(np.where(solvable[..., 0], found, np.nan), float)
@@ -948,12 +946,11 @@ class Motion(Shown):
         title = f"The numerical ratio of {what.name}{'' if step is None else f' with step={step:.6g}'}"
         if step is not None:
             useless |= self.reached & ~np.isfinite(found).all(axis=tuple(range(found.ndim - len(self.shape))))
-        if useless.any() and self.unreachable == "raise":
-            where, why = where_words(self.plan, useless, self.strokes), "differences do not settle so near a dead point. Ask"
-            if step is not None:
-                why = "the difference is rounding, or goes too far or out of reach, or stands too near a dead point. "
-                why += "Leave the step out, which is then chosen at every pose, or ask"
-            raise SingularError(f'{title} is refused {where}: {why} for method="exact".', mask=useless, motion=self)
+        why = "differences do not settle so near a dead point. Ask"
+        if step is not None:
+            why = "the difference is rounding, or goes too far or out of reach, or stands too near a dead point. "
+            why += "Leave the step out, which is then chosen at every pose, or ask"
+        refuse_at(self, useless, f"{title} is refused", f': {why} for method="exact".')
         if lost > differences.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
             text = f"{title} is off by up to about {lost:.0e} of its greatest value; {other}."
@@ -966,11 +963,9 @@ class Motion(Shown):
         if np.count_nonzero(finite) == finite.size:
             return values
         good: Mask = np.asarray(finite if finite.ndim == len(self.shape) else finite.all(axis=0))
-        missing = ~good & self.reached & ~excused
-        if missing.any() and self.unreachable == "raise":
-            where = where_words(self.plan, missing, self.strokes)
-            text = f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".'
-            raise SingularError(text, mask=missing, motion=self)
+        refuse_at(
+            self, ~good & self.reached & ~excused, f"{what} has no finite value", '. Leave these poses out, or ask with unreachable="nan".'
+        )
         return np.where(good, values, np.nan)
 
     # -- near singular poses -----------------------------------------------------------------------------

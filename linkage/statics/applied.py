@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, SingularError, cited, ensure, errors_of, known_name, unknown
+from ..errors import DefinitionError, cited, ensure, errors_of, known_name, unknown
 from ..loads import AS_IT_RUNS, FRICTIONLESS, OWN_LOADS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
 from ..motion import Motion, rates_of, require_motion
-from ..motion.limits import where_words
+from ..motion.limits import refuse_at
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
@@ -120,9 +120,8 @@ def over_poses(motion: AnyMotion, values: ArrayLike, vector: int, name: str, wha
     except ValueError:
         raise DefinitionError(f"{opening}, shape {array.shape}, does not fit the poses {shape}.") from None
     missing = ~np.isfinite(full).all(axis=tuple(range(vector))) & motion.reached
-    if missing.any() and motion.unreachable == "raise":
-        text = f"{motion.plan.title}: {name} gives no finite {what} {where_words(motion.plan, missing, motion.strokes)}"
-        raise SingularError(f"{text}: mend its law, or keep away from there.", mask=missing, motion=motion)
+    before = f"{motion.plan.title}: {name} gives no finite {what}"
+    refuse_at(motion, missing, before, ": mend its law, or keep away from there.")
     return np.asarray(full, float)
 
 

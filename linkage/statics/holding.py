@@ -18,11 +18,11 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, SingularWarning, ensure, unwarned, warn
+from ..errors import DefinitionError, SingularWarning, ensure, unwarned, warn
 from ..loads import ForceElement, Poses, Reeving, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.dead_points import REFUSE, WARN, condition_of_sine, is_or_are
-from ..motion.limits import where_words
+from ..motion.limits import refuse_at, where_words
 from ..motion.stroke_search import out_of_reach
 from ..plan import Plan
 from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
@@ -470,13 +470,11 @@ def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: 
     """
     lost = ~(cond <= REFUSE)
     near, motion = (cond > WARN) & ~lost, poses.motion
-    if lost.any() and motion.unreachable == "raise":
-        mask = poses.mask(lost)
-        where = where_words(motion.plan, mask, motion.strokes)
+    if lost.any():
         worst = float(np.max(np.nan_to_num(cond[lost], nan=np.inf)))
         size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
-        text = f"{what} {is_or_are(what)} refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
-        raise SingularError(text, mask=mask, motion=motion)
+        after = f": {reason} (condition {size}, refused above {REFUSE:.0e})."
+        refuse_at(motion, poses.mask(lost), f"{what} {is_or_are(what)} refused", after)
     if near.any():
         worst = float(cond[near].max())
         where = where_words(motion.plan, poses.mask(near), motion.strokes)

@@ -9,11 +9,11 @@ from typing import Unpack
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, ensure, known_name, unknown
+from ..errors import DefinitionError, ensure, known_name, unknown
 from ..language import said, translated
 from ..loads import AS_IT_RUNS, PLAIN_CASE, Acting, ActingKeywords, LinkMass, Load, Loads, situation_of, takes_situation
 from ..motion import Motion, require_motion, stroke_unit
-from ..motion.limits import where_said, where_words
+from ..motion.limits import refuse_at, where_said
 from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray
@@ -90,12 +90,8 @@ def agreeing(found: PoseForces, split: str) -> PoseForces:
         return found
     check_joints(found.structure, found.poses)
     poses, motion = found.poses, found.poses.motion
-    mask = poses.mask(lost)
-    if motion.unreachable == "raise":
-        where = where_words(motion.plan, mask, motion.strokes)
-        remedy = "Leave these poses out; if all are lost, look at what joints() of a step of one's own holds, and where"
-        text = f"{motion.plan.title}: the joint forces are refused {where}: {words}. {remedy}."
-        raise SingularError(text, mask=mask, motion=motion)
+    remedy = "Leave these poses out; if all are lost, look at what joints() of a step of one's own holds, and where"
+    refuse_at(motion, poses.mask(lost), f"{motion.plan.title}: the joint forces are refused", f": {words}. {remedy}.")
     return forces_at(poses.without(lost), found.applied, split)
 
 

@@ -134,9 +134,13 @@ def loop_conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[
 
 def loops(plan: Plan, reading: ArrayReading) -> dict[str, Any]:
     """Return the sines of the loops that move; a triangle rigid in itself is none."""
-    members = {name: plan.members[name] for name in reading.sines}
-    closing = [name for name, member in members.items() if not isinstance(member, Point) or member.closes]
-    return {name: reading.sines[name] for name in closing if plan.moves(members[name])}
+    moving = {name: plan.members[name] for name in reading.sines if name in moving_members(plan)}
+    return {name: reading.sines[name] for name, member in moving.items() if not isinstance(member, Point) or member.closes}
+
+
+def moving_members(plan: Plan) -> frozenset[str]:
+    """Return the members of a plan that follow a stroke, by name, found once."""
+    return plan.made(("moving members",), lambda _: frozenset(name for name, member in plan.members.items() if plan.moves(member)))
 
 
 def condition_of_sine(sine: FloatArray) -> FloatArray:

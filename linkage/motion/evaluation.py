@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..plan import NEAR, ArrayReading, Mask, Plan, failures, negative
 from ..program import LAST, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions, Scatter, disturbed
-from .dead_points import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, iterated, loop_conditions
+from .dead_points import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, iterated, loop_conditions, moving_members
 from .grid import Angles, Grid, Made, angles_behind, angles_of, to_rounding
 from .over import Over
 from .requests import Request, Trait
@@ -305,12 +305,12 @@ def examined(
     if key not in scatters:
         scatters[key] = Scatter([*(node for each in chosen for node in each), extent], pins)
     values, errors = scatters[key].at(inputs)
-    found, size = list[Conditioning](), np.sqrt(values[-1])
+    found, size, moves = list[Conditioning](), np.sqrt(values[-1]), moving_members(plan)
     for k, (first, last) in zip(among, pairwise(accumulate(map(len, chosen), initial=0)), strict=True):
         what, own, left = requests[k], reading.copied(), PrecisionLeft(values[first:last], errors[first:last], size)
         what.read_own(own)  # its own notes in the reading count for no other
         names, error = what.names(plan), what.error(plan, left)
-        moving = {name: each for name, each in own.closest.items() if not name or (name in names and plan.moves(plan.members[name]))}
+        moving = {name: each for name, each in own.closest.items() if not name or (name in names and name in moves)}
         with np.errstate(all="ignore"):  # over the machine's size
             spans = {name: np.sqrt(square / values[-1]) for name, square in moving.items()}
         conditions = loop_conditions(plan, own, names)

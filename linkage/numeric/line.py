@@ -37,7 +37,7 @@ CLOSE = 1e-13  # of a leg, or of a box: how narrow a bracket gets, and how near 
 BORDERS = 32  # of each function and design, at most
 NOISE, ROUNDED = 1e-10, 1e-12  # of the range of the values, and of their size: a sample that rises less above its neighbours hides nothing
 EPS, LOWEST = float(np.finfo(float).eps), float(np.finfo(float).min)
-HALVINGS, CUTS, LEVEL = 48, 1024, 2  # steps towards a border; parts about a few borders; more samples as high as the highest are level
+HALVINGS, CUTS, LEVEL = 48, 512, 2  # steps towards a border; parts about a few borders; more samples as high as the highest are level
 SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a border and to a refused pose
 PLATEAU = 2.0**-12  # of the distance at which a value stopped growing: where it is level from there on numbers went no nearer
 

@@ -188,7 +188,8 @@ def monte_carlo(
     tolerances : mapping of str to Tolerance or float
         By dimension [SI]; the dimensions are independent of each other. A number is the limit of a normal law at three sigmas.
     subject_to : sequence of conditions, optional
-        What a good machine keeps. Measures and conditions look at the strokes alone; an integral looks between them, too.
+        What a good machine keeps. Measures and conditions look at the strokes alone; an integral looks between them, too. Forces are at
+        rest under the machine's own loads, unless a request says `case=` or `direction=`.
     count : int, optional
         The number of designs, 16384 by default.
     percentiles : sequence of float, optional

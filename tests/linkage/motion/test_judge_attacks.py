@@ -4,10 +4,30 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, reserve, thrust
-from linkage import Acting, Crank, Ground, Mechanism, OnLink, Over, Stroke, Weight, at, least, most, pin_force, reachable, y
+from hydraulics import Cylinder, LiftCircuit, Telescope, buckling, capacity, pressure, reserve, thrust
+from linkage import (
+    RIGHT,
+    Acting,
+    Crank,
+    Dyad,
+    Ground,
+    LoadCase,
+    Mechanism,
+    OnLink,
+    Over,
+    PinFriction,
+    Stroke,
+    Weight,
+    at,
+    drive_force,
+    least,
+    most,
+    pin_force,
+    reachable,
+    y,
+)
 from linkage.loads import DIRECTIONS
-from linkage.units import deg, kN, mm
+from linkage.units import bar, deg, kN, mm
 from tests.for_all import first_daily, for_all
 from tests.linkage.test_judge import Loader, Rocker, Rubbing
 
@@ -169,3 +189,58 @@ def test_dead_points_of_every_place_are_told_in_whatever_order():
     told = [sorted(each for each in Jib().verdicts(over=overs) if "stands still" in each) for overs in (None, [Jib.high, Jib.low])]
     assert told[0] == told[1] and len(told[0]) == 1 and "phi = 122.01 deg" in told[0][0]
     assert not any("stands still" in each for each in Jib().verdicts(over=Jib.low))
+
+
+# Requests and what is calculated from them, in all situations.
+
+
+class Tipped(Mechanism):
+    """A body that tips over its rubbing pin, so that its cylinder pushes and pulls."""
+
+    S = Stroke(0.0, 0.75)
+    O, A = Ground(0.0, 0.0), Ground(0.9, -0.1)
+    B = Dyad(A, O, AB=0.45 + S, OB=0.8, side=RIGHT)
+    G = OnLink(O, B, OG=1.2, BOG=25 * deg)
+    load = Weight(G, mass=2000.0)
+    half = LoadCase(scale={"load": 0.4}, slope=12 * deg)
+    rub = PinFriction(O, coefficient=0.25, radius=50 * mm)
+    ram = Cylinder(A, B, bore=80 * mm, rod=45 * mm, works="both")
+    pump = LiftCircuit(ram, pressure=160 * bar, back_pressure=4 * bar, mechanical_efficiency=0.92)
+
+
+class Drawn(Tipped):
+    """The same on a cylinder that works with its rod side alone."""
+
+    ram = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works="rod")
+
+
+class Staged(Tipped):
+    """The same on a telescope."""
+
+    ram = Telescope("A", "B", bores=[90 * mm, 70 * mm], strokes=[0.4, 0.4], closed=0.45)
+
+
+def of_one_kind(machine, rng):
+    """Return two random requests that measure one thing; of a cylinder that works with its rod side both sides count where it is judged."""
+    kinds = (
+        [thrust("ram"), pin_force("O"), pin_force("B"), drive_force(), capacity("ram", "G")],
+        [pressure("ram", side="rod" if machine is Drawn else ""), pressure("ram", side="piston")],
+        [buckling("ram"), 0.01 * buckling("ram") + 1.0],
+    )
+    own = kinds[int(rng.integers(len(kinds)))]
+    return tuple(own[int(each)] for each in rng.integers(len(own), size=2))
+
+
+@for_all(("machine", "seed"), [(Tipped, 0), (Drawn, 1)], slow=[(each, seed) for each in (Tipped, Drawn, Staged) for seed in range(2, 8)])
+@pytest.mark.filterwarnings("ignore::linkage.SingularWarning")
+def test_an_answer_is_the_worst_of_what_a_motion_gives_in_every_situation(machine, seed):
+    rng, design = np.random.default_rng(seed), machine()
+    strokes = rng.uniform(0.0, 0.75, 7).tolist()
+    motion, judge = design.at(S=strokes), design.judge(over=Over.poses(S=strokes))
+    formulas = (np.negative, np.add, np.subtract, np.maximum, np.minimum, np.multiply)
+    for _ in range(6):
+        formula, given = formulas[int(rng.integers(len(formulas)))], of_one_kind(machine, rng)
+        asked = formula(*given[: formula.nin])
+        found = [float(answer.value) for answer in judge.answers([least(asked), most(asked)])]
+        values = [motion[asked.under(each)] for each in judge.actings(asked)]
+        assert_allclose(found, [np.nanmin(values), np.nanmax(values)], rtol=1e-8, atol=1e-9, err_msg=f"{machine.__name__}, {asked}")

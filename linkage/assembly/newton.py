@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import reduce
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import AssemblyError, SingularError
-from ..frozen import immutable
 from ..plan import Plan, strokes_text
 from ..program import ARRAYS, FloatArray, Kernel, Level, Node, ancestors, compiled, expanded, is_zero, jacobian, replaced, solve_arrays
 from ..program.text import GUARDED, function_text
@@ -176,8 +176,7 @@ def nearness(rows: FloatArray) -> FloatArray:
 # The equations of a group as programs: as the constraints state them, and solved by elimination written out for its own structure.
 
 
-@immutable
-class GroupEquations:
+class GroupEquations(NamedTuple):
     """The residuals of a group, the roots they determine, and the Jacobian by rows; groups before it are held."""
 
     residuals: tuple[Node, ...]
@@ -205,8 +204,7 @@ class GroupEquations:
         return rows
 
 
-@immutable
-class Programs:
+class Programs(NamedTuple):
     """Newton's step and the clearance of a group, from its pins and the known values before: inputs `@k0`, `@k1`, ...
 
     The last value of each is above zero where no pivot is too small.

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Container, Hashable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from functools import cached_property, reduce
 from math import prod
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -31,16 +31,14 @@ def rate_name(stroke: str, order: int = 1) -> str:
     return f"{stroke}.{'rate' if order == 1 else 'acceleration'}"
 
 
-@dataclass(frozen=True)
-class Guard:
+class Guard(NamedTuple):
     """A node that is above zero where a member can be worked out; a member of "" is all of them."""
 
     member: str
     node: Node
 
 
-@dataclass(frozen=True)
-class Nearness:
+class Nearness(NamedTuple):
     """How far a member is from a singular pose: the square of a loop's sine, or of a distance over the machine's size, over REGULAR's."""
 
     member: str
@@ -51,8 +49,7 @@ class Nearness:
     """Two nodes, the second above zero: `node` exceeds a number where the first exceeds so many times the second."""
 
 
-@dataclass(frozen=True)
-class Loop:
+class Loop(NamedTuple):
     """A loop that places a step: links that must meet, guides that must cross, a length that must be positive, a direction.
 
     `links`: the radicand, the scale of its root and the size of the terms whose difference it is; `guides`: the sine; `length`: [m];
@@ -273,10 +270,12 @@ def in_fork(value: object, nodes: Sequence[Node]) -> Any:
     match value:
         case Node():
             return nodes[value.number]
+        case Guard() | Nearness() | Loop():
+            return type(value)._make(in_fork(each, nodes) for each in value)
         case tuple() | list():
             return type(value)([in_fork(each, nodes) for each in value])
         case dict():
             return {in_fork(key, nodes) if isinstance(key, Nearness) else key: in_fork(each, nodes) for key, each in value.items()}
-        case Vec() | Line() | Guard() | Nearness() | Loop():
+        case Vec() | Line():
             return type(value)(*[in_fork(getattr(value, part.name), nodes) for part in fields(value)])
     return value

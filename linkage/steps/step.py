@@ -8,14 +8,14 @@ from copy import copy
 from dataclasses import dataclass, replace
 from math import pi
 from types import MappingProxyType
-from typing import ClassVar, Self, TypeAlias
+from typing import ClassVar, NamedTuple, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..checks import two_of
 from ..errors import DefinitionError, cited, did_you_mean, ensure
-from ..frozen import immutable, refuses_changes
+from ..frozen import refuses_changes
 from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
 from ..units import deg, require_measure
 from ..vectors import Scalar, Side, Vec
@@ -47,8 +47,7 @@ class Bar:
     length: Quantity
 
 
-@immutable
-class Contour:
+class Contour(NamedTuple):
     """A closed line that is drawn and moves with the points P and Q: its corners along P -> Q and to its left from P, shape (2, n) [m]."""
 
     P: str
@@ -56,8 +55,7 @@ class Contour:
     corners: npt.NDArray[np.float64]
 
 
-@immutable
-class Assignment:
+class Assignment(NamedTuple):
     """A name given to a primitive of the vector method, `OAB = CosineAngle(...)`; to a quantity, it is the label of a length."""
 
     name: str

@@ -64,15 +64,15 @@ class Outline(Member):
     circle: ClassVar[type[CircleOutline]]
     dxf: ClassVar[type[DxfOutline]]
     image: ClassVar[type[ImageOutline]]
+    form: ClassVar[str] = "Outline"
     closed, filled, hatched = True, False, False
 
     def __init__(
         self, points: Sequence[Corner], *, on: Carrier = None, closed: bool = True, filled: bool = True, hatched: bool = False
     ) -> None:
-        self.points = outline_corners(points, "Outline")
-        self.on = carrying_points(on, "Outline")
+        self.points, self.on = outline_corners(points, self.form), carrying_points(on, self.form)
         self.closed = is_yes("Outline: closed", closed)
-        self.filled, self.hatched = is_yes("Outline: filled", filled) and self.closed, is_yes("Outline: hatched", hatched)
+        self.filled, self.hatched = is_yes("Outline: filled", filled) and self.closed, is_yes(f"{self.form}: hatched", hatched)
 
     @staticmethod
     def line(*points: Corner, on: Carrier = None, hatched: bool = True) -> LineOutline:
@@ -260,11 +260,10 @@ class CircleOutline(Outline):
 class LineOutline(Outline):
     """An open line; `Outline.line` makes it."""
 
-    closed = False
+    form = "Outline.line"
 
     def __init__(self, points: Sequence[Corner], *, on: Carrier = None, hatched: bool = True) -> None:
-        self.points, self.on = outline_corners(points, "Outline.line"), carrying_points(on, "Outline.line")
-        self.hatched = is_yes("Outline.line: hatched", hatched)
+        super().__init__(points, on=on, closed=False, hatched=hatched)
 
     def __str__(self) -> str:
         return outline_text("Outline.line", list(map(corner_text, self.points)), self.on, {} if self.hatched else {"hatched": "False"})
@@ -272,8 +271,6 @@ class LineOutline(Outline):
 
 class PlacedFile(Outline):
     """The base of outlines from a file: their origin's place and their angle."""
-
-    form: ClassVar[str] = ""
 
     def __init__(self, path: str | Path, on: Carrier, at: Corner, angle: Operand) -> None:
         ensure(str(path).strip(), f"{self.form}: the path of the file is missing.")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from ..formulas.typeset import Box, BoxRow, Fenced, Fraction, Rooted, Script, Sign, boxes, breakable, rough_width
 
@@ -77,7 +76,7 @@ def opened(box: Box) -> list[Box]:
         case Script(Fenced() as base):
             *inner, last = opened(base)
             *before, end = row_of(last).parts or (last,)  # the closing parenthesis has the index and the exponent
-            return [*inner, row_of(*before, replace(box, base=end))] if inner else [box]
+            return [*inner, row_of(*before, box._replace(base=end))] if inner else [box]
         case Rooted(base):
             return opened(Script(Fenced("(", base, ")"), None, Fraction(Sign("number", "1"), Sign("number", "2"))))
         case BoxRow():

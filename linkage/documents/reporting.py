@@ -221,12 +221,12 @@ def composed(
     verdicts, mark, judged, broken = verdict_section(subject, bounds)
     sections = (
         sketch_section(subject, path),
-        of_source(verdicts),
+        with_texts(verdicts, cited_numbers),
         Section(said("Results"), tuple(results_blocks(subject, columns, first, bounds))),
         in_time_section(subject),
         *(each for one in speakers(machine.plan, HasVerdicts).values() for each in one.sections(subject.verdict_judge)),
         *members_sections(subject),
-        of_source(inputs_section(subject, found.listing)),
+        with_texts(inputs_section(subject, found.listing), cited_numbers),
         assumptions_section(subject),
         standards_section(subject, judged),
         Section(said("Calculation"), tuple(calculation_blocks(found, subject.pose_words, subject.run.instants is not None))),
@@ -235,7 +235,7 @@ def composed(
         checks_section(subject, found.values),
         definition_section(machine),
     )
-    whole = tuple(spoken_numbers(each) for each in sections if each is not None)
+    whole = tuple(with_texts(each, set_in_type) for each in sections if each is not None)
     words = cited_numbers(plain_words(translated(own_paragraphs(type(machine))[0])))
     facts = tuple((name, set_in_type(text)) for name, text in title_rows(subject, title_block, mark, broken))
     return Document(machine.plan.heading, words, block, facts, mark, whole, current_language())
@@ -273,29 +273,29 @@ def set_in_type(text: str) -> str:
     return POWER.sub(lambda found: found[1] + found[2].translate(RAISED), with_decimals(text))
 
 
-def spoken_numbers(section: Section) -> Section:
-    """Return a section whose texts are set in type; declarations stay as they are written.
+def with_texts(section: Section, changed: Callable[[str], str]) -> Section:
+    """Return a section whose texts are changed by a function; declarations stay as they are written.
 
     Columns that are empty in every row go.
     """
 
     def cell_of(heading: str, cell: Cell) -> Cell:
-        return set_in_type(cell) if isinstance(cell, str) and heading != said("declared as") else cell
+        return changed(cell) if isinstance(cell, str) and heading != said("declared as") else cell
 
-    def spoken(block: Block) -> Block:
+    def of(block: Block) -> Block:
         match block:
             case str():
-                return set_in_type(block)
+                return changed(block)
             case tuple():
-                return tuple(map(set_in_type, block))
+                return tuple(map(changed, block))
             case TableBlock(filled=table):
                 rows = tuple(tuple(map(cell_of, table.headings, row)) for row in table.rows)
-                return replace(table, headings=tuple(map(set_in_type, table.headings)), rows=rows)
+                return replace(table, headings=tuple(map(changed, table.headings)), rows=rows)
             case Illustration():
-                return replace(block, caption=set_in_type(block.caption))
+                return replace(block, caption=changed(block.caption))
         return block
 
-    return replace(section, blocks=tuple(map(spoken, section.blocks)))
+    return replace(section, blocks=tuple(map(of, section.blocks)))
 
 
 # The numbers of a source's equations are not the report's: where a machine's own words cite one, they say whose it is.
@@ -306,24 +306,6 @@ NUMBER = re.compile(r"(?<![\w)\]])\((\d{1,3}(?:\.\d{1,3})?[a-z]?)\)")
 def cited_numbers(text: str) -> str:
     """Return a text in which the number of an equation in parentheses is said to be the source's."""
     return NUMBER.sub(lambda found: said("[source, eq. {number}]", number=found[1]), text)
-
-
-def of_source(section: Section) -> Section:
-    """Return a section whose texts say whose the numbers of equations in them are."""
-
-    def marked(block: Block) -> Block:
-        match block:
-            case str():
-                return cited_numbers(block)
-            case tuple():
-                return tuple(map(cited_numbers, block))
-            case TableBlock(rows=rows):
-                return replace(
-                    block, rows=tuple(tuple(cited_numbers(cell) if isinstance(cell, str) else cell for cell in row) for row in rows)
-                )
-        return block
-
-    return replace(section, blocks=tuple(map(marked, section.blocks)))
 
 
 def title_rows(subject: ReportSubject, title_block: Mapping[str, str], mark: Mark, broken: str) -> tuple[tuple[str, str], ...]:

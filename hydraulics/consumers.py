@@ -150,9 +150,8 @@ class Consumers:
             if line in self.pumped and isinstance(pilot, LiftLine) and pilot.pump(plan.members) is None:
                 self.pumped[pilot] = self.pumped[line]
         self.lines = [*self.pumped]
-        if not self.lines:
-            what = f"{plan.title}: no line is on {pump.name or pump}"
-            raise DefinitionError(f"{what}; put it on one, OilLine(lift.piston_side, supply) or LiftCircuit(lift, supply).")
+        what = f"{plan.title}: no line is on {pump.name or pump}"
+        ensure(self.lines, f"{what}; put it on one, OilLine(lift.piston_side, supply) or LiftCircuit(lift, supply).")
         ensure(not any(map(np.ndim, designs.values())), f"{plan.title}: one pump is shared in one design at a time; take one of the batch.")
         self.rams: tuple[Ram, ...] = each_once(ram for line in self.lines for ram in line.members(plan.members))
         self.strokes = tuple(plan.strokes)

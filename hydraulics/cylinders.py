@@ -409,8 +409,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def travel(self, motion: Motion) -> Array:
         """Return greatest less least length over all that a motion covers [m], one value a design; DefinitionError if none is reached."""
         low, high = self.extent(motion)
-        if not np.all(np.isfinite(high - low)):
-            raise DefinitionError(f"{self}: no pose of this motion can be assembled.")
+        ensure(np.all(np.isfinite(high - low)), f"{self}: no pose of this motion can be assembled.")
         return np.asarray(high - low)
 
     # -- what it carries -----------------------------------------------------------------------------------
@@ -1689,9 +1688,8 @@ def length_in(cylinder: Ram, members: NamedMembers) -> Quantity:
     if called not in names_behind(cylinder.ends, members):
         return distance(cylinder.A, cylinder.B)
     own = lines_of(cylinder, members, "closed")
-    if not own:
-        what = f"{called} is asked for by what places its own pins, {cylinder.A} and {cylinder.B}, and no closed line gives it"
-        raise DefinitionError(f"{what}; declare one, OilLine({cylinder.name}.piston_side, other.piston_side, filled=dict(...)).")
+    what = f"{called} is asked for by what places its own pins, {cylinder.A} and {cylinder.B}, and no closed line gives it"
+    ensure(own, f"{what}; declare one, OilLine({cylinder.name}.piston_side, other.piston_side, filled=dict(...)).")
     giving = lines_giving(members)
     for line, chamber in own:
         if giving.get(cylinder.name) is line:

@@ -18,7 +18,7 @@ from functools import partial, reduce
 from math import pi
 from operator import add
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, Unpack, cast
+from typing import Any, ClassVar, TypeAlias, TypeVar, Unpack, cast
 
 import numpy as np
 
@@ -88,6 +88,7 @@ class LineLength(Quantity):
         return str(self.of)
 
 
+Kind = TypeVar("Kind", bound=Supply)
 OnLine: TypeAlias = "Chamber | Reference | Block"
 """What may lie on a line: a chamber, a cylinder, a pump, a relief valve, a tank, by their names too, or accumulators."""
 NUMBERS: Mapping[str, tuple[str, ...]] = MappingProxyType({
@@ -229,7 +230,7 @@ class OilLine(PumpLine, GasLine):
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), *(each for each in map(quantity, self.lengths_told.values()) if not each.is_constant))
 
-    def supplies(self, members: NamedMembers, kind: type[Supply]) -> list[Supply]:
+    def supplies(self, members: NamedMembers, kind: type[Kind]) -> list[Kind]:
         """Return the pumps, relief valves or tanks on it.
 
         Parameters
@@ -248,7 +249,7 @@ class OilLine(PumpLine, GasLine):
         return [each for each in found if isinstance(each, kind)]
 
     def pump(self, members: NamedMembers) -> Pump | None:
-        return cast("Pump | None", next(iter(self.supplies(members, Pump)), None))
+        return next(iter(self.supplies(members, Pump)), None)
 
     @property
     def blocks(self) -> list[Block]:
@@ -554,9 +555,8 @@ class OilLine(PumpLine, GasLine):
         """
         filling = self.filling(members)
         own = cast(Ram, members[name_of(chamber.cylinder)])
-        if not self.fills(own.name):
-            what = f"{self.name} = {self}: nothing says how long {own.name} is where the line is filled"
-            raise DefinitionError(f"{what}; add filled=dict({own.name}=...) in m.")
+        what = f"{self.name} = {self}: nothing says how long {own.name} is where the line is filled"
+        ensure(self.fills(own.name), f"{what}; add filled=dict({own.name}=...) in m.")
         pins = {*own.ends}  # rams of one stage stand side by side on the same pins
         beside = [] if own.is_single_acting else [ram for ram, _ in filling if {*ram.ends} == pins and not ram.is_single_acting]
         alike = [(ram, each) for ram, each in filling if ram is own or any(ram is one for one in beside)]

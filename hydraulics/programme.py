@@ -119,6 +119,6 @@ def pump_of(machine: Mechanism, name: object) -> Pump:
     if name is not None:
         return pumps[known_name("Pump", name, pumps, where=plan.title)]
     ensure(pumps, f"{plan.title} has no pump on its lines; declare one, supply = Pump(200 * bar, flow=60 * litre / minute).")
-    if len(pumps) > 1:
-        raise DefinitionError(f'{plan.title} has the pumps {", ".join(pumps)}; say which one, pump = "{next(iter(pumps))}" or --pump.')
+    which = f'pump = "{next(iter(pumps))}" or --pump'
+    ensure(len(pumps) == 1, f"{plan.title} has the pumps {', '.join(pumps)}; say which one, {which}.")
     return next(iter(pumps.values()))

@@ -7,6 +7,7 @@ from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
@@ -41,7 +42,7 @@ def curve(ax: Axes, along: FloatArray, values: FloatArray, colour: str, text: st
     ax.plot(along, values, color=colour, linewidth=width, linestyle=line, label=text or None, zorder=6.0)
 
 
-def dot(ax: Axes, along: Any, values: Any, colour: str, size: float = 7.0) -> None:
+def dot(ax: Axes, along: ArrayLike, values: ArrayLike, colour: str, size: float = 7.0) -> None:
     """Mark places by dots."""
     ax.plot(along, values, "o", color=colour, markersize=size, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
 

@@ -222,8 +222,7 @@ def axis_said(option: str, text: str) -> FloatArray:
     parts = [part.strip() for part in text.split(":")]
     if span is None and len(parts) == 1:
         return np.array([si_value(part, "length", option) for part in text.split(",") if part.strip()])
-    if span is None and len(parts) > 3:
-        raise DefinitionError(f"{option} {text}: from, to and step are expected, such as {option} 0:6m:0.5m.")
+    ensure(span is not None or len(parts) <= 3, f"{option} {text}: from, to and step are expected, such as {option} 0:6m:0.5m.")
     first, last, *step = span if span is not None else [si_value(part, "length", option) for part in parts]
     if not step:
         return np.linspace(first, last, COUNT)

@@ -104,10 +104,8 @@ def check_asked(options: Namespace) -> None:
 def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> int:
     """Print the assembly modes with the code that chooses each, draw them where a file is named, and return the exit code."""
     modes = machine.assemblies(**at)
-    if not modes:
-        strokes = {name: stroke.start for name, stroke in machine.strokes.items()} | at
-        said = strokes_text(machine.plan, strokes)
-        raise DefinitionError(f"{machine.plan.title} cannot be assembled in any mode at {said}; say --at with another stroke.")
+    said = strokes_text(machine.plan, {name: stroke.start for name, stroke in machine.strokes.items()} | at)
+    ensure(modes, f"{machine.plan.title} cannot be assembled in any mode at {said}; say --at with another stroke.")
     for number, mode in enumerate(modes, 1):
         said = ", ".join([*([str(mode)] * bool(str(mode))), *(["as declared"] * mode.is_declared)])
         print_section(f"{number}. {said}", mode.code.splitlines() or ["(no line changes)"], fits=False)

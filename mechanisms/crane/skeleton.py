@@ -12,12 +12,11 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from linkage import Column, Crank, DefinitionError, Dimension, Ground, Link, Mechanism, Motion, OnLink, Outline, Stroke, Verdict, angle, ref
+from linkage import Column, Crank, Dimension, Featured, Ground, Link, Mechanism, Motion, OnLink, Outline, Stroke, Verdict, angle, ref
 from linkage.checks import require
 from linkage.errors import cited, ensure
 from linkage.language import noted, said, translated
 from linkage.loads import LinkMass, LoadCase, Weight
-from linkage.motion import Featured
 from linkage.program import FloatArray
 from linkage.units import deg, kN, mm, show
 
@@ -138,13 +137,11 @@ class CraneSkeleton(Mechanism):
         """Set the design [SI]; DefinitionError also for a boom so short that the regression (2.6) gives it no height."""
         super().__init__(**dimensions)
         heights = self.outputs("b_c", "b_t", "W")
-        if np.any(heights["b_c"] <= 0.0):
-            boom = f"b_c = {np.min(heights['b_c']) / mm:.4g} mm: a boom of l_c = {np.min(self['l_c']):.4g} m"
-            raise DefinitionError(f"{boom} is outside the regression (2.6); give a longer one, from about 1.7 m on.")
+        boom = f"b_c = {np.min(heights['b_c']) / mm:.4g} mm: a boom of l_c = {np.min(self['l_c']):.4g} m"
+        ensure(np.all(heights["b_c"] > 0.0), f"{boom} is outside the regression (2.6); give a longer one, from about 1.7 m on.")
         for name in ("b_t", "W"):
-            if np.any(heights[name] <= 0.0):
-                long = f"{name} is not above zero: l_t = {np.max(self['l_t']):.4g} m"
-                raise DefinitionError(f"{long} is outside the regressions (2.8), (2.9); give a shorter telescope.")
+            long = f"{name} is not above zero: l_t = {np.max(self['l_t']):.4g} m"
+            ensure(np.all(heights[name] > 0.0), f"{long} is outside the regressions (2.8), (2.9); give a shorter telescope.")
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return the table of results without the values of the design alone."""

@@ -23,7 +23,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from linkage import DefinitionError, Motion, kgf, kgf_cm2, litre, mm, reaction
+from linkage import Motion, kgf, kgf_cm2, litre, mm, reaction
+from linkage.errors import ensure
 from linkage.motion import below_zero
 from linkage.pictures import style
 from linkage.pictures.sheet import panels
@@ -52,9 +53,8 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
     """
     key = str(number).replace(" ", "").lower()
     parts = {name: part for name, part in PARTS.items() if key and name.startswith(key)}
-    if not parts and key != "1":
-        numbers = dict.fromkeys(["1", *(each for name in PARTS for each in (name[0], name))])
-        raise DefinitionError(f"Figure {number} is unknown; there are {', '.join(numbers)}.")
+    numbers = dict.fromkeys(["1", *(each for name in PARTS for each in (name[0], name))])
+    ensure(parts or key == "1", f"Figure {number} is unknown; there are {', '.join(numbers)}.")
     shown = machine if machine is not None else ImprovedBalancer() if key[0] == "6" else with_header({"4": 2, "5": 3}.get(key[0], 1))
     if key == "1":
         return scheme(shown, f"1   Scheme of the balanced header: {_name(shown)}")

@@ -55,10 +55,9 @@ def stroke_of(motion: Motion, height: float) -> float:
         h = float(stroke_at(height, given["O.y"], np.hypot(x, y), *angles_and_lengths))
     low, high = sorted((motion.plan.strokes["h"].start, motion.plan.strokes["h"].end))
     stands = height_at(motion, h) if low <= h <= high else np.nan
-    if not abs(stands - height) < REACHED:
-        wide = f"that is at h = {h / mm:.1f} mm, the stroke is {low / mm:.1f} to {high / mm:.1f} mm"
-        why = "it never comes there" if np.isnan(h) or low <= h <= high else wide
-        raise DefinitionError(f"The shoe cannot be {height / mm:+.0f} mm from the horizon: {why}. Follow less, or change L_min or BOR.")
+    wide = f"that is at h = {h / mm:.1f} mm, the stroke is {low / mm:.1f} to {high / mm:.1f} mm"
+    why = f"{'it never comes there' if np.isnan(h) or low <= h <= high else wide}. Follow less, or change L_min or BOR"
+    ensure(abs(stands - height) < REACHED, f"The shoe cannot be {height / mm:+.0f} mm from the horizon: {why}.")
     return h
 
 

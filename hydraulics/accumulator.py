@@ -506,7 +506,8 @@ class AccumulatorBlock:
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
         text = partial(show, unit=unit or self.unit or "bar", digits=4)
         ensure(not low > high, f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
-        charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
+        each_of = enumerate((np.broadcast_arrays(*each) for each in self._bank), 1)
+        charges = {number: charge[vessel > 0.0] for number, (charge, vessel) in each_of if np.any(vessel > 0.0)}
         worst = {"charge": (low + self.atmosphere, np.max), "compression": (high + self.atmosphere, np.min)}
         found = []
         for rule, (pressure, ends) in worst.items():
@@ -618,12 +619,6 @@ class AccumulatorBlock:
         bank = self._bank
         pressure = bank.pressure(np.minimum(volume, bank.total)) - self.atmosphere
         return np.where(volume > bank.total, 0.0, pressure)[()]
-
-
-def there(charge: Array, vessel: Array) -> Array:
-    """Return the charges [Pa] of the designs that have the vessel."""
-    charge, vessel = np.broadcast_arrays(charge, vessel)
-    return charge[vessel > 0.0]
 
 
 def one_atmosphere(atmosphere: ArrayLike) -> Array:

@@ -592,7 +592,9 @@ class LiftLine(Circuit):
         """
         given = situation_of("lowering", acting, loads=loads, case=case)
         require_measure(resistance, "bar", "lowering: resistance")
-        against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
+        against, k_m = not_negative(resistance, "Return resistance"), self.efficiency(motion, "mechanical")
+        fits = is_traced(against) or np.ndim(against) == 0 or fits_shape(against, motion.shape)
+        ensure(fits, f"resistance of the shape {np.shape(against)} does not fit the poses {motion.shape}.")
         found = []
         for ram in self.meant(motion, cylinder):
             low = high = np.zeros(())
@@ -608,14 +610,6 @@ class LiftLine(Circuit):
 
 ROUNDS = 12
 """How often a capacity with friction is put right; each makes it better by the share of the friction."""
-
-
-def fitted(motion: Motion, value: Array) -> Array:
-    """Return a value over the poses; DefinitionError where it does not fit their shape."""
-    if is_traced(value) or np.ndim(value) == 0:
-        return value
-    ensure(fits_shape(value, motion.shape), f"resistance of the shape {np.shape(value)} does not fit the poses {motion.shape}.")
-    return value
 
 
 def least_of(each: Sequence[Array]) -> Array:

@@ -30,7 +30,7 @@ from .motion.motion_verdicts import HELD, judge_verdicts
 from .motion.over import OPTIONS, Over
 from .motion.table import Column, columns_of
 from .plan import Body, Part, Plan, check_circuits, require_kinds, with_parts
-from .program import BackendName, FloatArray, Language, RunOptions
+from .program import QUICKEST, BackendName, FloatArray, Language, RunOptions
 from .quantities import Member, Stroke, is_name, keywords, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
@@ -483,8 +483,8 @@ class Mechanism(Shown, metaclass=MechanismType):
         SingularError
             A ratio is asked for at a dead point.
         """
-        options = RunOptions(backend, threads)
-        own = is_yes("per_design", per_design)
+        is_quickest = backend is None and type(threads) is int and threads == 1
+        options, own = QUICKEST if is_quickest else RunOptions(backend, threads), is_yes("per_design", per_design)
         return evaluate(self.plan, self._values, strokes, of, out, options, unreachable, own, rates, accelerations)
 
     def function(self, of: Sequence[RequestLike], *, rates: bool = False, accelerations: bool = False) -> PoseFunction:

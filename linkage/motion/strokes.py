@@ -121,7 +121,8 @@ def strokes_over_axes(axes: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
 def _axis(name: str, given: object, plan: Plan) -> FloatArray:
     stroke, title = plan.strokes[name], plan.title
     if is_whole(given):
-        ensure(given >= 1, f"{title}: sweep({name}={given}): a count of at least 1 is expected; for a value write {float(given)}.")
+        if given < 1:  # a whole number may be too large for a float, which only the message asks for
+            raise DefinitionError(f"{title}: sweep({name}={given}): a count of at least 1 is expected; for a value write {float(given)}.")
         try:
             return np.linspace(stroke.start, stroke.end, int(given))
         except (MemoryError, OverflowError, ValueError):

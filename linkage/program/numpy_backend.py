@@ -154,7 +154,7 @@ def columns_part(value: Numbers, here: slice) -> Numbers:
 
 def as_floats(values: Sequence[Numbers]) -> tuple[float, ...] | None:
     """Return inputs that are one number each; None where one of them is not."""
-    if set(map(type, values)) <= {float}:
+    if {float}.issuperset(map(type, values)):
         return tuple(cast(Sequence[float], values))
     return None if any(map(has_many, values)) else tuple(float(np.ravel(value)[0]) for value in values)
 

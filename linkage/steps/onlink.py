@@ -56,11 +56,9 @@ class OnLink(Step):
         ensure(UNBOUND in (self.PX, self.QX, self.QPX), f"{self.sentence()}: give the third side or the angle, not both.")
         if self.QX is not UNBOUND and self.side is None and self.near is None and self.drawn_at is None:
             raise self.needs_side("a triangle of three sides lies on either side")
-        if self.QX is UNBOUND and self.drawn_at is None:
-            self.check_choice()
-
-    def check_choice(self) -> None:
-        """Raise DefinitionError where a side or a place is given that chooses nothing, since the point lies in one way alone."""
+        if self.QX is not UNBOUND or self.drawn_at is not None:
+            return
+        # a side or a place chooses nothing, since the point lies in one way alone
         third, angle = (next(iter(slot.spellings)) for slot in self.slots()[1:])
         if self.QPX is UNBOUND and (self.side is not None or self.near is not None):
             word = "near" if self.side is None else "side"

@@ -15,6 +15,7 @@ from linkage.cli import listing, main
 from linkage.cli.machines import find
 from linkage.statics import driving_force, max_table, pin_forces
 from linkage.units import bar, inch, kN, lbf, mm, psi
+from mechanisms.at_work.tail_lift import TailLift
 from tests.for_all import first_daily
 
 LOADER = '''
@@ -193,6 +194,10 @@ def test_capacity_of_any_machine(said):
     np.testing.assert_allclose(numbers(out)["further load, kN"], expected / kN, rtol=1e-12, equal_nan=True)
     code, out, _ = said("capacity", "loader.py", "--count", "3")
     assert "ok   further load: " in out and "ok   lifting: " in out and "at 180 bar" in out
+    options = "--cylinder lift --at-point G --count 3 --csv -"
+    _, out, _ = said("capacity", "tail_lift", *options.split())  # its pump is on an OilLine
+    expected = TailLift.plan.members["lifting"].capacity(TailLift().at(S=[0.0, 0.13, 0.26], tilt=0.01), "G")
+    np.testing.assert_allclose(numbers(out)["further load, kN"], expected / kN, rtol=1e-12)
     code, out, _ = said("capacity", "loader.py", "--pressure", "20bar", "--count", "3", "--check")
     assert code == 1 and "FAIL further load: nothing more is lifted at G" in out and "FAIL lifting: at 20 bar" in out
     overs = "from linkage import Over\nfrom loader import Loader\n\n\nclass Reaching(Loader):\n"

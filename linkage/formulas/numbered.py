@@ -443,7 +443,7 @@ class Equations(Sequence[Equation], Shown):
 
         `known` are the left sides' values there by name [SI], where `values` gave them already.
         """
-        values, shown = self._filled(at or self._poses, known)
+        values, shown = self._filled(self._poses if at is None else at, known)
         headings = self.headings
         sheet = [each.sheet(self._listing.names.latex, values, shown) for each in self._items]
         return [each._replace(heading=headings[each.number]) if each.number in headings else each for each in sheet]

@@ -6,6 +6,7 @@ const { scene } = data, { abs, acos, atan2, ceil, cos, floor, hypot, log10, max,
 const isNumber = Number.isFinite, root = document.documentElement;
 const on = (element, event, act) => element.addEventListener(event, act);
 const make = (kind, given) => Object.assign(document.createElement(kind), given);
+const rows = data.rows;
 
 /* ---- words and numbers ---- */
 
@@ -93,7 +94,7 @@ function meshed(step, kind) {
   for (let i = ceil(low[1] / step); i * step <= high[1]; i++) lines.push([0, px(0, i * step)[1]], [sheetWide, px(0, i * step)[1]], null);
   draw(sheet, "path", { class: kind, d: broken(lines) });
 }
-const spot = (found, point, i) => { const [x, y] = data.rows.points[point]; return [found.values[x][i], found.values[y][i]]; };
+const spot = (found, point, i) => { const [x, y] = rows.points[point]; return [found.values[x][i], found.values[y][i]]; };
 let parts = [], edition = 0;
 
 /* Return the outermost of some points, counter-clockwise (A. M. Andrew, monotone chain). */

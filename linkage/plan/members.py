@@ -215,7 +215,8 @@ class Members:
 
     def moves(self, quantity: Member) -> bool:
         """Return whether a quantity follows a stroke."""
-        return isinstance(quantity, Stroke) or any(self.member(name).name in self._driven for name in needs(quantity))
+        member = self.members.get(quantity.name, quantity)  # a stroke of a part may be a number of the whole
+        return isinstance(member, Stroke) or any(self.member(name).name in self._driven for name in needs(member))
 
     @cached_property
     def _driven(self) -> set[str]:
@@ -525,10 +526,27 @@ def rigid_bodies(plan: Members, apart: Collection[frozenset[str]] = ()) -> tuple
     placed = [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
     groups += [body for body in placed if frozenset(body[:2]) not in apart]
     groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
-    rest = plan.resting
-    still = [name for name, line in rest.items() if not line]
-    groups += [(*line, name) for name, line in rest.items() if len(line) == 2]
-    return merged(groups, (*plan.ground, *still))
+    standing = standing_points(plan)
+    groups += [(*line, name) for name, line in standing.items() if line]
+    return merged(groups, [name for name, line in standing.items() if not line])
+
+
+def standing_points(plan: Members) -> dict[str, tuple[str, ...]]:
+    """Return the points that stand still on a body, with two points of it, none of the frame.
+
+    These are fixed points, those at a fixed place on a guide, and ends of cranks that nothing turns, on a pin of the same body.
+    """
+    found: dict[str, tuple[str, ...]] = {name: () for name in plan.ground}
+    for name, point in plan.points.items():
+        line = plan.resting.get(name)
+        if line is not None and (len(line) == 2 or all(found.get(each, line) == () for each in line)):
+            found[name] = line if len(line) == 2 else ()
+        for joint in point.joints():
+            carrier = joint.by.points
+            carried = any({*carrier, joint.point} <= {*body} for body in plan.points[joint.point].bodies()) if carrier else False
+            if joint.kind == "crank" and not plan.is_there(joint) and (carried or found.get(joint.point) == carrier):
+                found[name] = carrier
+    return found
 
 
 def carrying_pairs(plan: Members, members: Iterable[Iterable[str]] = ()) -> frozenset[frozenset[str]]:

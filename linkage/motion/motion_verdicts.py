@@ -267,6 +267,9 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     ok: bool | None = bool(answer.ok)
     if judge.is_empty:
         ok, text = None, said("over {spans} no place is left to look at.", spans=spans)
+    elif nowhere := [name for name in judge.plan.ground if not np.isfinite(judge.places[0].motion[name]).all()]:
+        text = said("{point} has no place, as its coordinates have no value. Change a dimension.", point=opening(judge.plan, nowhere[0]))
+        ok = False
     elif not answer.lost:
         ok, text = True, said("it is assembled over {spans}.", spans=spans)
     elif not judge.is_reached:

@@ -14,6 +14,8 @@ from .machine_sketch import Place, line_angle
 
 ROLES = "pins", "links", "ground", "slides", "crank", "cylinder"
 """What a layer may be of, and by default its name."""
+OWN = {"bodies", "centre_lines", "pins"}
+"""Layers of the drawings that `export` writes."""
 METRES = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0}
 """The unit of a drawing by the number in its head [m]."""
 MEETS = 1e-6
@@ -32,6 +34,8 @@ def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]
         for name in names:
             if name.lower() not in there:
                 raise unknown("Layer", name, there.values(), where=f"{found.file}, --layer {role}={name}")
+    own = "it is a true-size drawing of this package, whose bodies are outlines; import the machine's own file"
+    found.ensure("links" in layers or not OWN <= there.keys(), f"{own}, or the centre lines as links, --layer links=centre_lines.")
     found.unit = METRES.get(int(drawing.header.get("$INSUNITS", 0)))
     DrawingReader(found, entities, {role: [each.lower() for each in layers.get(role, (role,))] for role in ROLES}).read()
 

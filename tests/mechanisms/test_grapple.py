@@ -459,7 +459,7 @@ def test_a_cylinder_without_a_place_is_told_with_the_arm_that_has_one():
     (said,) = machine.rules(motion)
     assert "less than the stroke; OC = rho from 167.6 mm on has one" in said
     failed = [each.rule for each in machine.verdicts(motion) if each.ok is False]
-    assert failed == ["length", "lifting", "cylinder"] and said in machine.verdicts()  # what has no value is no pass
+    assert failed == ["assembly", "length", "lifting", "cylinder"] and said in machine.verdicts()  # what has no value is no pass
     with pytest.raises(DefinitionError, match="E has no place"):
         machine.columns(motion)
     assert np.isfinite(Grapple(rho=0.1677).at(theta=0.0)["E"]).all()

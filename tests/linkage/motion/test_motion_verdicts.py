@@ -231,3 +231,19 @@ def test_what_hydraulics_brings_judges_itself(kind):
 )
 def test_a_movement_goes_before_one_without_friction_and_that_before_none(pieces, found):
     assert situation_found([SimpleNamespace(situation=each) for each in pieces]) == found
+
+
+def test_a_fixed_point_without_a_place_is_told():
+    class Pointed(Mechanism):
+        a = Dimension(0.5)
+        S = Stroke(0.5, 0.8)
+        O = Ground(0, 0)
+        A = Ground(1, 0)
+        B = Dyad(O, A, OB=0.7, AB=S, side=RIGHT)
+        E = Ground(a, np.sqrt(1 - a * a))  # nothing that moves hangs on it
+
+    (assembly,) = [each for each in Pointed(a=1.5).verdicts() if each.rule == "assembly"]
+    assert assembly.ok is False
+    assert assembly.sentence.startswith("E = Ground(a, sqrt(1.0 - a * a)) has no place, as its coordinates have no value. Change")
+    assert all(Pointed().verdicts())
+    assert np.isnan(Pointed(a=1.5).evaluate(["E"], S=[0.6], unreachable="nan")[0]).any()  # a search reads that

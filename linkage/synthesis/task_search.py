@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from ..program import FloatArray, fixed_backend
 from ..study.box import unit_points
 from ..study.checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine
 from ..study.checks import check_one_design
+from ..study.designs import Array
 from ..study.measured import traced_number
 from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
 from ..study.problem import Problem, end_words
@@ -29,6 +30,7 @@ from ..study.space import FAR, Space, size_of_machine
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from ..study.variants import fitted_rows
 from ..units import show
+from . import task_work
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
 from .defects import NEAR_CHANGE_POINT, branch_words, circuit_words, in_order, order_words
 from .fit import Fit, Timing
@@ -49,7 +51,7 @@ from .synthesis import (
     synthesised_classes,
     told_error,
 )
-from .task_work import LONG, RACE, Combination, DescentWork, LayWork, LookWork, PolishWork, RaceWork, Stages, Through
+from .task_work import LONG, NUMBERS, RACE, Combination, FitWork, Stages, Through
 from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, check_radians, moving_stroke, task_named_in, task_of, timed_as
 
 STARTS = 64
@@ -340,10 +342,9 @@ class TaskSearch:
         """How many searches are begun of each combination."""
         return max(self.starts // len(self.combinations), min(self.starts, 4))
 
-    @property
-    def shared(self) -> tuple[Problem, TaskRows, Timing, FloatArray | None]:
-        """The arguments that all fits share."""
-        return self.problem, self.rows, self.timing, self.task.at
+    def work(self, piece: int, measure: Callable[..., dict[str, Array]], **options: Any) -> FitWork:
+        """Return a stage's work on designs, a piece at a time, by a function of a fit and the rows."""
+        return FitWork(self.problem, self.rows, self.timing, self.task.at, piece, partial(measure, **options))
 
     def fit(self, combination: Combination) -> Fit:
         """Return the fit of a combination of choices."""
@@ -366,7 +367,8 @@ class TaskSearch:
             unit = np.concatenate([unit, unit_points(self.population, len(space.variables), "sobol", self.seed)])
         unit = space.drawn(unit, self.problem.plan.title, self.seed)
         every = [(each, {"unit": unit}) for each in chosen]
-        seen = stages.carried_out("look", LookWork(*self.shared, self.timed), every, told=self.population * len(chosen))
+        look = self.work(1024, task_work.look_results, timed=self.timed)
+        seen = stages.carried_out("look", look, every, told=self.population * len(chosen))
         fits = [self.fit(each) for each in chosen]
         likeness: dict[Combination, Likeness] = {}
         parts = []
@@ -377,7 +379,8 @@ class TaskSearch:
                 likeness[fit.combination] = Likeness.of(fit, unit[runs][:3], timed=self.timed is True)
                 parts.append((fit.combination, {"unit": unit[kept]}))
         running = frozenset(each for each, runs in zip(chosen, whole, strict=True) if int(runs.sum()) >= WHOLE_ENOUGH)
-        laid = stages.carried_out("lay", LayWork(*self.shared, self.timed, likeness, running), parts)
+        work = self.work(256, task_work.laying_results, timed=self.timed, likeness=likeness, running=running)
+        laid = stages.carried_out("lay", work, parts)
         found = []
         for (_, own), each, fit, runs in zip(parts, laid, fits, whole, strict=True):
             places = standing_apart(own["unit"], each["error"], RACING * self.many)
@@ -396,8 +399,9 @@ class TaskSearch:
         """Return as many of the starts as are asked for, the best after their first steps."""
         if self.most(sum(len(each.at) for each in first)) < 4 * 3 * RACE:  # a limit is better spent on the best
             return [replace(each, at=each.at[: self.many], base=each.base[: self.many]) for each in first]
-        found = []
-        for each, own in zip(first, stages.carried_out("race", RaceWork(*self.shared), [each.part for each in first]), strict=True):
+        numbers, found = self.rows.wanted.size * (len(self.problem.space.variables) + self.timing.width), []
+        work = self.work(int(np.clip(NUMBERS // max(numbers, 1), 64, 256)), task_work.race_results, steps=RACE)
+        for each, own in zip(first, stages.carried_out("race", work, [each.part for each in first]), strict=True):
             places = standing_apart(own["at"][:, : each.fit.n], own["error"], self.many)
             found.append(replace(each, at=own["at"][places], base=each.base[places]))
         return found
@@ -432,7 +436,7 @@ class TaskSearch:
         ways = [Polishing(self, starts, own, kept.get(starts.fit)) for starts, own in zip(first, found, strict=True)]
         wave = 0
         while not self.problem.count.is_spent and min(way.best for way in ways) > exact and any([way.next() for way in ways]):
-            work = PolishWork(*self.shared, self.ordered, self.most(sum(len(way.now) for way in ways)))
+            work = self.work(1, task_work.polish_results, in_order=self.ordered, most=self.most(sum(len(way.now) for way in ways)))
             reached = stages.carried_out(f"conditions {wave}", work, [(way.fit.combination, way.rows) for way in ways])
             for way, end in zip(ways, reached, strict=True):
                 way.enter(end["at"][end["ended"]], way.rows["base"][end["ended"]])
@@ -476,7 +480,7 @@ class TaskSearch:
         """Return where local searches end, or where they stand when the limit is reached; `name` is the stage's where it is another."""
         reached = [each.at for each in first]
         if not self.problem.count.is_spent:
-            work = DescentWork(*self.shared, through, self.most(sum(map(len, reached))))
+            work = self.work(64, task_work.descent_results, through=through, most=self.most(sum(map(len, reached))))
             reached = [each["at"] for each in stages.carried_out(name or through, work, [each.part for each in first], told=told)]
         return [self.ends_of(each.fit, at, each.base) for each, at in zip(first, reached, strict=True)]
 

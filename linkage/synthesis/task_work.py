@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from itertools import groupby
-from typing import Any, ClassVar, Literal, TypeAlias
+from typing import ClassVar, Literal, TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from ..errors import LinkageError
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..numeric.descent import BEGIN
-from ..plan import Mask
 from ..program import FloatArray
 from ..study.checkpoint import Checkpoint
 from ..study.designs import Array, Designs, DesignValues
@@ -56,24 +55,20 @@ def joined_rows(parts: Sequence[Part]) -> Designs:
 
 
 @immutable
-class FitWork(ABC):
-    """Work on designs by the fit of their combination; the result of each design does not depend on the worker."""
+class FitWork:
+    """Work on designs by the fit of their combination, `piece` at a time; the result of each design does not depend on the worker.
+
+    `measure` with its keywords returns the results of designs of one combination, arrays (m, ...) by name.
+    """
 
     problem: Problem
     rows: TaskRows
     timing: Timing
     known: FloatArray | None
+    piece: int
+    measure: partial[dict[str, Array]]
     backend: ClassVar[str] = "numpy"
     what: ClassVar[str] = "a condition or the mechanism's class"
-
-    @property
-    @abstractmethod
-    def piece(self) -> int:
-        """How many designs are looked at at a time."""
-
-    @abstractmethod
-    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
-        """Return the results of designs of one combination, arrays (m, ...)."""
 
     @property
     def machine(self) -> Mechanism:
@@ -83,18 +78,13 @@ class FitWork(ABC):
     @property
     def facts(self) -> str:
         """The facts that identify the work, beside the task and its designs, as text."""
-        return f"{type(self).__name__} {self.piece}"
+        return f"{self.measure.func.__name__} {self.piece} {self.measure.keywords}"
 
     @property
     def empty(self) -> dict[str, Array]:
         """The empty result."""
         at, base = np.zeros((0, len(self.problem.space.variables) + self.timing.width)), np.zeros((0, self.rows.count))
         return {"at": at, "base": base, "error": np.zeros(0), "ended": np.zeros(0, bool)}
-
-    def fit(self, combination: Combination) -> Fit:
-        """Return a fit with a problem of its own: its samples and its count are of nobody else."""
-        own = self.problem.on_branch(combination).sampled_apart(self.problem.counts, counted=False)
-        return Fit(own, self.rows, self.timing, combination, self.known)
 
     def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
         """Return the results of the designs from start to before stop, of each piece, with how many designs were `looked` at."""
@@ -103,123 +93,74 @@ class FitWork(ABC):
             last, parts = min(first + self.piece, stop - start), []
             for combination, group in groupby(map(tuple, rows["combination"][first:last].astype(int).tolist())):  # those in a row
                 begin, first = first, first + len(list(group))
-                fit = self.fit(combination)
+                # a problem of its own: its samples and its count are of nobody else
+                problem = self.problem.on_branch(combination).sampled_apart(self.problem.counts, counted=False)
+                fit = Fit(problem, self.rows, self.timing, combination, self.known)
                 own = {name: column[begin:first] for name, column in rows.items() if name != "combination"}
                 looked = np.zeros(first - begin)
-                parts.append(self.results(fit, own) | {"looked": looked})
-                looked[0] = fit.problem.count.designs
+                parts.append(self.measure(fit, own) | {"looked": looked})
+                looked[0] = problem.count.designs
             found.append({name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
         return found
 
 
-@immutable
-class LookWork(FitWork):
-    """Which designs are assembled over the whole stroke, and which somewhere."""
-
-    timed: Any
-    piece: ClassVar[int] = 1024
-
-    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
-        _, reached = fit.swept(rows["unit"], poses_of(fit, self.timed))
-        return {"whole": np.asarray(reached.all(axis=1)), "somewhere": np.asarray(reached.any(axis=1))}
+def look_results(fit: Fit, rows: DesignValues, *, timed: object) -> dict[str, Array]:
+    """Return which designs are assembled over the whole stroke, and which somewhere."""
+    _, reached = fit.swept(rows["unit"], poses_of(fit, timed))
+    return {"whole": np.asarray(reached.all(axis=1)), "somewhere": np.asarray(reached.any(axis=1))}
 
 
-@immutable
-class LayWork(FitWork):
-    """Designs laid onto the task, by the likeness of their combination; of which combinations all of them run."""
-
-    timed: Any
-    likeness: Mapping[Combination, Likeness]
-    running: frozenset[Combination]
-    piece: ClassVar[int] = 256
-
-    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
-        combination = fit.combination
-        at, base = laid_designs(fit, self.likeness[combination], rows["unit"], self.timed, runs=combination in self.running)
-        return {"at": at, "base": base, "error": fit.errors(at, base)}
+def laying_results(
+    fit: Fit, rows: DesignValues, *, timed: object, likeness: Mapping[Combination, Likeness], running: Collection[Combination]
+) -> dict[str, Array]:
+    """Return designs laid onto the task, by the likeness of their combination; of which combinations all of them run."""
+    combination = fit.combination
+    at, base = laid_designs(fit, likeness[combination], rows["unit"], timed, runs=combination in running)
+    return {"at": at, "base": base, "error": fit.errors(at, base)}
 
 
-@immutable
-class DescentWork(FitWork):
-    """Local searches, all of a piece together, `through` some designs. `most`: designs that each may look at, if any."""
-
-    through: Through
-    most: float
-    piece: ClassVar[int] = 64
-
-    @property
-    def facts(self) -> str:
-        return f"{super().facts} {self.through} {self.most}"
-
-    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
-        at, base = np.array(rows["at"]), rows["base"]
-        error, going = fit.errors(at, base), np.arange(len(at))
-        through = {"free": None, "running": fit.assembled, "keeping": fit.keeping}[self.through]
-        for turn in range(TURNS + FARTHER):
-            if turn >= TURNS:
-                going = going[np.isin(going, np.argsort(error, kind="stable")[:LONGER]) & (error[going] > exact_error(self.rows))]
-            if not len(going) or fit.problem.count.designs >= self.most * len(at):
-                break
-            before = error[going]
-            left = (self.most * len(at) - fit.problem.count.designs) / (2.0 * len(going))  # a step looks at one design or two
-            steps, begin = STEPS if turn < TURNS else LONG, AGAIN if turn else BEGIN
-            at[going], error[going] = fit.descend(at[going], base[going], int(np.clip(left, 1, steps)), through=through, begin=begin)
-            going = going[(error[going] < (1.0 - 1e-9 if turn < TURNS else WORTH) * before) & ~self.led(fit, at, error)[going]]
-        return {"at": at}
-
-    def led(self, fit: Fit, at: FloatArray, error: FloatArray) -> Mask:
-        """Return which searches (m,) stand where a better one does."""
-        order = np.argsort(error, kind="stable")
-        unit, sorted_error = at[order, : fit.n], error[order]
+def descent_results(fit: Fit, rows: DesignValues, *, through: Through, most: float) -> dict[str, Array]:
+    """Return the ends of local searches, all of a piece together, `through` some designs; each may look at so many at the `most`."""
+    at, base = np.array(rows["at"]), rows["base"]
+    error, going = fit.errors(at, base), np.arange(len(at))
+    mask = {"free": None, "running": fit.assembled, "keeping": fit.keeping}[through]
+    for turn in range(TURNS + FARTHER):
+        if turn >= TURNS:
+            going = going[np.isin(going, np.argsort(error, kind="stable")[:LONGER]) & (error[going] > exact_error(fit.rows))]
+        if not len(going) or fit.problem.count.designs >= most * len(at):
+            break
+        before = error[going]
+        left = (most * len(at) - fit.problem.count.designs) / (2.0 * len(going))  # a step looks at one design or two
+        steps, begin = STEPS if turn < TURNS else LONG, AGAIN if turn else BEGIN
+        at[going], error[going] = fit.descend(at[going], base[going], int(np.clip(left, 1, steps)), through=mask, begin=begin)
+        order = np.argsort(error, kind="stable")  # searches that stand where a better one does are led by it
+        unit, by_order, led = at[order, : fit.n], error[order], np.zeros(len(at), bool)
         with np.errstate(invalid="ignore"):
-            one = is_one_design(unit[:, None], unit, sorted_error[:, None], sorted_error, exact_error(self.rows))
-        found = np.zeros(len(at), bool)
-        found[order] = np.tril(one, -1).any(axis=1)
-        return found
+            one = is_one_design(unit[:, None], unit, by_order[:, None], by_order, exact_error(fit.rows))
+        led[order] = np.tril(one, -1).any(axis=1)
+        going = going[(error[going] < (1.0 - 1e-9 if turn < TURNS else WORTH) * before) & ~led[going]]
+    return {"at": at}
 
 
-@immutable
-class RaceWork(FitWork):
-    """The first steps of local searches, for those that run then; with the `error` where each stands."""
-
-    @property
-    def piece(self) -> int:
-        numbers = self.rows.wanted.size * (len(self.problem.space.variables) + self.timing.width)
-        return int(np.clip(NUMBERS // max(numbers, 1), 64, 256))
-
-    @property
-    def facts(self) -> str:
-        return f"{super().facts} {RACE}"
-
-    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
-        at, base = rows["at"], rows["base"]
-        raced, error = fit.descend(at, base, RACE)
-        runs = fit.assembled(raced) & np.isfinite(error)
-        return {"at": np.where(runs[:, None], raced, at), "error": np.where(runs, error, fit.errors(at, base))}
+def race_results(fit: Fit, rows: DesignValues, *, steps: int) -> dict[str, Array]:
+    """Return the first steps of local searches, for those that run then; with the `error` where each stands."""
+    at, base = rows["at"], rows["base"]
+    raced, error = fit.descend(at, base, steps)
+    runs = fit.assembled(raced) & np.isfinite(error)
+    return {"at": np.where(runs[:, None], raced, at), "error": np.where(runs, error, fit.errors(at, base))}
 
 
-@immutable
-class PolishWork(FitWork):
-    """Local searches with all conditions, from where each stands, `at`, or else from `first`; which of them came to an end."""
-
-    in_order: bool
-    most: float
-    piece: ClassVar[int] = 1
-
-    @property
-    def facts(self) -> str:
-        return f"{super().facts} {self.in_order} {self.most}"
-
-    def results(self, fit: Fit, rows: DesignValues) -> dict[str, Array]:
-        ((at, first, base),) = zip(rows["at"], rows["first"], rows["base"], strict=True)
-        fit.problem.count.limit = int(min(self.most, LOOKS))
-        for start in (at, first):
-            with suppress(LinkageError):
-                squares = fit_squares(fit, start, base, in_order=self.in_order)
-                local = Local(fit.problem, fit.combination, start[: fit.n], squares=squares)
-                end = local.run()
-                return {"at": np.concatenate([end.unit, local.own])[None], "ended": np.ones(1, bool)}
-        return {"at": at[None], "ended": np.zeros(1, bool)}
+def polish_results(fit: Fit, rows: DesignValues, *, in_order: bool, most: float) -> dict[str, Array]:
+    """Return local searches with all conditions, from where each stands, `at`, or else from `first`; which of them came to an end."""
+    ((at, first, base),) = zip(rows["at"], rows["first"], rows["base"], strict=True)
+    fit.problem.count.limit = int(min(most, LOOKS))
+    for start in (at, first):
+        with suppress(LinkageError):
+            squares = fit_squares(fit, start, base, in_order=in_order)
+            local = Local(fit.problem, fit.combination, start[: fit.n], squares=squares)
+            end = local.run()
+            return {"at": np.concatenate([end.unit, local.own])[None], "ended": np.ones(1, bool)}
+    return {"at": at[None], "ended": np.zeros(1, bool)}
 
 
 class Stages:

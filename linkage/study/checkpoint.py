@@ -44,7 +44,7 @@ class Checkpoint:
     key: bytes
 
     @classmethod
-    def of(cls, folder: str | os.PathLike[str], facts: Facts) -> Checkpoint:
+    def of(cls, folder: str | os.PathLike[str], facts: Facts, what: str = "study") -> Checkpoint:
         """Return the checkpoint of a study; DefinitionError where the folder holds another one, with the differences."""
         place = folder_given(folder)
         note = place / NOTE
@@ -67,7 +67,7 @@ class Checkpoint:
                 words.append(f"{name} ({old} there, {new} here)")
             said = ", ".join(words)
             more = f" and {len(differing) - 4} more" if len(differing) > 4 else ""
-            raise DefinitionError(f"{place} holds another study; it differs in {said}{more}. Take another folder, or delete this one.")
+            raise DefinitionError(f"{place} holds another {what}; it differs in {said}{more}. Take another folder, or delete this one.")
         return cls(place, blake2b(json.dumps(facts, sort_keys=True).encode()).digest())
 
     def stage(self, name: str, content: bytes) -> Checkpoint:

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, cast, overload
 
 import numpy as np
 
 from ..checks import is_listed, require, require_number, require_whole
-from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, ensure, known_name, one_word
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..mechanism import Mechanism
@@ -42,8 +39,9 @@ from ..statics.applied import case_of
 from ..statics.law_requests import LawRequest
 from ..units import show
 from .box import unit_points
-from .checkpoint import digest, folder_given, how_far
+from .checkpoint import Checkpoint, digest, how_far
 from .checks import check_one_design
+from .designs import Batch
 from .infeasible import infeasible_error
 from .optimum import EvaluatedDesigns, Optimum, described, in_units, on_steps, unit_of_constraint, unit_of_measure
 from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of
@@ -243,6 +241,7 @@ def optimise(
     if all(each is objectives[0] for each in sought):
         sought = [objectives[0]]  # it names its load cases itself
     best: Optimum | None = None
+    kept: Checkpoint | None = None
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
         while True:
             worse = [] if shares else worse_pieces(objectives[0], sense, cases, judge)
@@ -256,8 +255,10 @@ def optimise(
                 problem = with_spread(problem, robust, sigmas)
             check_objectives_move(problem)
             problem.count.limit = limit or default_limit(problem)
-            journal = Journal.of(folder, problem, how, "search" if best is None else f"search_{len(sought)}")
-            best = DesignSearch(problem, *how, journal, tell).run()
+            if folder is not None:
+                facts = digest(f"{problem.facts} {problem.function_texts()} {how}")
+                kept = kept.stage(f"search_{len(sought)}", facts.encode()) if kept else Checkpoint.of(folder, {"search": facts}, "search")
+            best = DesignSearch(problem, *how, kept, tell).run()
             judge = best.machine.judge(over)
 
 
@@ -458,72 +459,16 @@ def with_leaf(measure: Measure, leaf: Leaf, other: Leaf) -> Measure:
     return other if measure is leaf else measure
 
 
-# What was found on the way, kept in a folder.
-
-
-class Journal:
-    """The results of the local searches that are done, in a file of lines: the same call goes on from there."""
-
-    def __init__(self, path: Path | None, known: dict[str, dict[str, Any]]) -> None:
-        self.path, self.known = path, known
-
-    @classmethod
-    def of(cls, folder: str | os.PathLike[str] | None, problem: Problem, how: tuple[object, ...], name: str) -> Journal:
-        """Return the journal of a search; DefinitionError where the folder holds that of another one."""
-        if folder is None:
-            return cls(None, {})
-        path = folder_given(folder) / f"{name}.jsonl"
-        check_name(path)
-        facts = {"search": digest(f"{problem.facts} {problem.function_texts()} {how}")}
-        with in_words(path):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
-        entries: list[dict[str, Any]] = []
-        for line in text.splitlines():
-            with suppress(ValueError):  # a torn line holds nothing
-                found = json.loads(line)
-                entries += [found] if isinstance(found, dict) else []
-        if entries and entries[0] != facts:
-            raise DefinitionError(f"{path} holds another search, of other variables, conditions, dimensions or seed; give another folder.")
-        if not entries or not text.endswith("\n"):  # a line that was torn would take the next one with it
-            with replacing_text(path) as file:
-                file.writelines(json.dumps(entry) + "\n" for entry in (entries or [facts]))
-        return cls(path, {str(entry["task"]): entry for entry in entries if "task" in entry})
-
-    def result(self, task: str, problem: Problem, combination: tuple[int, ...]) -> SearchEnd | None:
-        """Return the stored result of a local search, with the designs that it looked at."""
-        try:
-            entry = self.known[task]
-            unit = np.array(entry["unit"], float)
-            found = SearchEnd(combination, unit, float(entry["value"]), float(entry["missing"]), bool(entry["is_assembled"]))
-            looked_at = int(entry["looked_at"])
-            if unit.shape != (len(problem.space.variables),):
-                return None
-        except (KeyError, TypeError, ValueError):
-            return None
-        problem.count.designs += looked_at
-        return found
-
-    def keep(self, task: str, found: SearchEnd, looked_at: int) -> None:
-        """Store the result of a local search, and the number of designs it looked at."""
-        if self.path is None:
-            return
-        kept = {name: value for name, value in vars(found).items() if name != "combination"}  # the task says it
-        entry = {"task": task, **kept, "unit": found.unit.tolist(), "looked_at": looked_at}
-        with in_words(self.path), self.path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(entry) + "\n")
-            file.flush()
-            os.fsync(file.fileno())
-
-
 # The search.
 
 
 class DesignSearch:
     """One search under way."""
 
-    def __init__(self, problem: Problem, method: str, starts: int, seed: int, journal: Journal, tell: Progress) -> None:
-        self.problem, self.method, self.many, self.seed, self.journal, self.tell = problem, method, starts, seed, journal, tell
+    def __init__(self, problem: Problem, method: str, starts: int, seed: int, checkpoint: Checkpoint | None, tell: Progress) -> None:
+        self.problem, self.method, self.many, self.seed, self.checkpoint, self.tell = problem, method, starts, seed, checkpoint, tell
+        self.kept = {str(values["task"][0]): values for each in (checkpoint.batches() if checkpoint else ()) if (values := each.values)}
+        """What is kept of local searches that are done, by their tasks."""
         self.coarse = problem.sampled_apart(COARSE)
         self.cut: list[str] = []
         self.spread_words = ""
@@ -582,7 +527,7 @@ class DesignSearch:
             except LimitReachedError:
                 break
             except KeyboardInterrupt as stopped:
-                stopped.add_note(how_far(done, len(tasks), "local searches", self.journal.path))
+                stopped.add_note(how_far(done, len(tasks), "local searches", self.checkpoint.folder if self.checkpoint else None))
                 raise
             self.tell(done + 1, len(tasks))
         return ended
@@ -662,8 +607,12 @@ class DesignSearch:
         """Return the result of the local search from a start, or the stored one."""
         task = f"{list(combination)} {number}{self.spread_words}"
         sampled, ends = self._known.setdefault(combination, (self.problem.sampled_apart(SAMPLES), []))
-        found = self.journal.result(task, self.problem, combination)
-        if found is None:
+        known = self.kept.get(task)
+        if known is not None:
+            value, missing, whole, looked_at = (known[name][0] for name in ("value", "missing", "is_assembled", "looked_at"))
+            found = SearchEnd(combination, known["unit"][0], float(value), float(missing), bool(whole))
+            self.problem.count.designs += int(looked_at)
+        else:
             problem, unit = sampled.sampled_apart(), np.ravel(unit)
             before = problem.count.designs
             try:
@@ -672,8 +621,10 @@ class DesignSearch:
                 raise
             except LinkageError:
                 found = SearchEnd(combination, unit, np.nan, np.inf, False)
-            if not problem.count.is_spent:
-                self.journal.keep(task, found, problem.count.designs - before)
+            if self.checkpoint is not None and not problem.count.is_spent:
+                row = {**vars(found), "task": task, "looked_at": problem.count.designs - before}
+                del row["combination"]  # the task says it
+                self.checkpoint.keep(Batch(number, number + 1, values={name: np.array([each]) for name, each in row.items()}))
         if found.feasible and not any(np.array_equal(found.unit, each.unit) for each in ends):
             ends.append(found)
             sampled.refine(sampled.dimensions_at(found.unit, combination))

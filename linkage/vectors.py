@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 Mask: TypeAlias = npt.NDArray[np.bool_]
+Index: TypeAlias = npt.NDArray[np.intp]
 Numbers: TypeAlias = float | FloatArray
 """One number, or one for each design or pose."""
 Scalar: TypeAlias = Any

@@ -26,7 +26,7 @@ from .settings import pair
 def import_command(options: Namespace) -> int:
     """Read a file, look whether it assembles, and write the machine."""
     from ..sketch import read_sketch, sketch_text
-    from ..sketch.read import SUFFIXES
+    from ..sketch.foreign_files import SUFFIXES
 
     scale = None if options.scale is None else parse(options.scale, "length")
     layers: dict[str, list[str]] = {}

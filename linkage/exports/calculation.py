@@ -21,11 +21,10 @@ from ..formulas.printing import Text
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import Column
-from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import Run, reached_motion, results
 from ..units import factor
-from ..vectors import Numbers
+from ..vectors import FloatArray, Numbers
 
 AGREE = 1e-9
 """Relative: a formula that is further from the engine is not used."""
@@ -93,23 +92,20 @@ class Calculation:
         outputs = [name for name, each in plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))]
         moving = [name for name in (*outputs, *plan.moving[-1:]) if self.run.stroke in plan.reaches(name)]
         targets = [name for name in moving if name in written]
-        try:
-            return equations(self.design, ratio=targets, wrt=self.run.stroke, forces=True, case=self.run.case)
-        except DefinitionError:
-            pass
-        found: list[str] = []
-        for target in targets:
+
+        def lines_with(**options: Any) -> Equations | None:
             try:
-                equations(self.design, ratio=target, wrt=self.run.stroke)
-                found.append(target)
+                return equations(self.design, **options)
             except DefinitionError as error:
                 self.left_out.append(str(error))
-        forces = True
-        try:
-            equations(self.design, forces=True, case=self.run.case)
-        except DefinitionError as error:
-            self.left_out.append(str(error))
-            forces = False
+                return None
+
+        whole = lines_with(ratio=targets, wrt=self.run.stroke, forces=True, case=self.run.case)
+        if whole is not None:
+            return whole
+        self.left_out.clear()
+        found = [each for each in targets if lines_with(ratio=each, wrt=self.run.stroke) is not None]
+        forces = lines_with(forces=True, case=self.run.case) is not None
         return equations(self.design, ratio=found, wrt=self.run.stroke, forces=forces, case=self.run.case if forces else None)
 
     # -- columns ---------------------------------------------------------------------------------------

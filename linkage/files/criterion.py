@@ -20,19 +20,8 @@ import numpy as np
 from .. import plugins
 from ..errors import DefinitionError, ensure, unknown
 from ..mechanism import Mechanism
-from ..motion import Condition, Measure, Request, at, condition, gap, integral, least, most, ratio, reachable, transmission, worst
-from ..motion.measures import (
-    KINDS,
-    FixedNumber,
-    MeasureKind,
-    Worst,
-    as_measure,
-    common_kind,
-    kind_of_quantity,
-    strokes_behind,
-    traced,
-    words_of,
-)
+from ..motion import Condition, Measure, Request, at, condition, gap, integral, least, measures, most, ratio, reachable, transmission, worst
+from ..motion.measures import KINDS, FixedNumber, MeasureKind, Worst, strokes_behind, words_of
 from ..motion.requests import Combined
 from ..plugins import Plugins
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
@@ -109,7 +98,7 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
 def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
     """Return a measure, also of a quantity with one value for a design; DefinitionError for one with a value at every pose."""
     is_quantity = isinstance(found, (str, Quantity, Request))
-    return at(found) if is_quantity and not strokes_behind(machine.plan, found) else as_measure(found)
+    return at(found) if is_quantity and not strokes_behind(machine.plan, found) else measures.as_measure(found)
 
 
 def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] | None = None) -> Condition:
@@ -126,7 +115,7 @@ def quantity_said(text: object, machine: Mechanism) -> Any:
     if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
         raise DefinitionError(f"{text!r} has no value at every pose; write an output such as tilt, or a request such as drive_force().")
     Problem(machine, [most(found)], [], NOWHERE)
-    traced(machine.plan, found)  # which refuses what has two components
+    measures.traced(machine.plan, found)  # which refuses what has two components
     return found
 
 
@@ -172,7 +161,7 @@ class CriterionParser(Grammar):
             return Combined("multiply" if sign == "*" else "divide", (a, Number(float(b))))  # measures something else
         said = f"{self.words(a)} {sign} {self.words(b)}"
         if sign in ("+", "-"):
-            common_kind(self.plan, said, self.kind_of(a), self.kind_of(b))
+            measures.common_kind(self.plan, said, self.kind_of(a), self.kind_of(b))
         try:
             found = OPERATORS[sign](a, b)
         except ArithmeticError:
@@ -190,7 +179,7 @@ class CriterionParser(Grammar):
         """Return the kind of a term in a sum; None for a number, which may be added to anything."""
         if isinstance(part, Amount):
             return MeasureKind(KINDS[part.measures]) if part.measures in KINDS else None
-        return kind_of_quantity(self.plan, part) if isinstance(part, (Quantity, Request)) else None
+        return measures.kind_of_quantity(self.plan, part) if isinstance(part, (Quantity, Request)) else None
 
     def negative(self, part: Any) -> Any:
         ensure(not isinstance(part, str), f"-{part} cannot be calculated; a dimension stands by itself, at({part}).")

@@ -1,22 +1,22 @@
 """Studies as a file: a survey over a box, a zone, tolerances, the tornado of tolerances, and settings that meet targets.
 
-    machine = "three_point_hitch"
+machine = "three_point_hitch"
 
-    [survey]
-    count = 2048
-    vary = { OB = "270 to 330 mm", CD = "550 to 700 mm" }
-    measure = { travel = "at(G_y, S=250 mm) - at(G_y, S=0)", upright = "most(abs(tilt)) <= 18 deg" }
+[survey]
+count = 2048
+vary = { OB = "270 to 330 mm", CD = "550 to 700 mm" }
+measure = { travel = "at(G_y, S=250 mm) - at(G_y, S=0)", upright = "most(abs(tilt)) <= 18 deg" }
 
-    [tolerance]
-    of = ["tilt"]
-    tolerances = { OB = "0.1 mm", CD = "0.1 mm" }
-    subject_to = ["most(tilt) <= 17 deg"]
+[tolerance]
+of = ["tilt"]
+tolerances = { OB = "0.1 mm", CD = "0.1 mm" }
+subject_to = ["most(tilt) <= 17 deg"]
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -31,9 +31,9 @@ from ..frozen import immutable
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, stroke_display_unit, stroke_measure
-from ..motion.measures import At, Condition, Constraint, FixedNumber, Integral, Leaf, Measure, in_case, measure_of
+from ..motion.measures import At, Condition, Constraint, FixedNumber, Integral, Measure, in_case, measure_of
 from ..motion.requests import situated
-from ..plan import Mask, Plan
+from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
 from ..study import Box, Target, monte_carlo, settings_for, survey, tornado, zone
@@ -79,18 +79,13 @@ class TextMeasures:
                 with suppress(LinkageError):
                     problem.refined_panels(leaf, drawn)
         look = problem.evaluated(machine.dimensions)
-        numbers, count = look.numbers, max(np.size(value) for value in machine.dimensions.values())
-
-        def sound(leaves: Iterable[Leaf]) -> Mask:
-            return np.asarray(look.is_assembled & ~np.any([np.zeros(count, bool), *(look.rows[leaf].lost for leaf in leaves)], axis=0))
-
-        found = {name: np.where(sound(each.leaves), design_values(each, numbers, count), np.nan) for name, each in measures.items()}
+        found: Keywords = {name: look.values_of(each) for name, each in measures.items()}
         for name, constraints in conditions.items():
-            found[name] = sound(leaf for one in constraints for leaf in one.margin.leaves)
+            found[name] = np.array(look.is_assembled)
             for one in constraints:
-                size = np.maximum(*(np.abs(design_values(side, numbers, count)) for side in (one.left, one.right)))
                 with np.errstate(all="ignore"):
-                    found[name] &= missed(one, numbers, 1.0) <= MET_TO_ROUNDING * size
+                    size = np.maximum(*(np.abs(side.from_leaves(look.numbers.__getitem__)) for side in (one.left, one.right)))
+                    found[name] &= ~look.lost_of(one.margin) & (missed(one, look.numbers, 1.0) <= MET_TO_ROUNDING * size)
         return {name: found[name] for name in self.texts}
 
     def problem(self, machine: Mechanism) -> tuple[dict[str, Measure], dict[str, Sequence[Constraint]], Problem]:
@@ -115,12 +110,6 @@ class TextMeasures:
         return dict.fromkeys(conditions, "") | {name: unit_of_measure(machine.plan, each) for name, each in measures.items()}
 
 
-def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: int) -> FloatArray:
-    """Return a measure of designs, shape (count,), from the numbers of its leaves."""
-    with np.errstate(all="ignore"):
-        return np.broadcast_to(np.asarray(measure.from_leaves(lambda leaf: numbers[leaf]), float), (count,))
-
-
 def named_measures(given: Any) -> dict[str, str]:
     """Return the texts of a table of measures by name; those of a list by themselves."""
     if isinstance(given, list):
@@ -129,6 +118,7 @@ def named_measures(given: Any) -> dict[str, str]:
 
 
 # -- the studies ---------------------------------------------------------------------------------------------
+
 
 @immutable
 class TaskResult:

@@ -1,14 +1,14 @@
 """A synthesis as a file: the task, the variables, the conditions, and the outputs.
 
-    machine = "four_bar"
+machine = "four_bar"
 
-    [synthesis]
-    path = { of = "P", points = "points.csv" }
-    subject_to = ["least(transmission(B)) >= 40 deg"]
+[synthesis]
+path = { of = "P", points = "points.csv" }
+subject_to = ["least(transmission(B)) >= 40 deg"]
 
-    [synthesis.vary]
-    OA = "20 to 60 mm"
-    C = "within 60 mm"
+[synthesis.vary]
+OA = "20 to 60 mm"
+C = "within 60 mm"
 """
 
 from __future__ import annotations
@@ -425,7 +425,17 @@ def points_of_file(path: Path, columns: Sequence[PointColumn], units: Mapping[st
             raise DefinitionError(f"{path.name}, line {line}: {len(first)} numbers where {words} are expected; or begin with headings.")
         places = {each.name: (place, units.get(each.measures, 1.0)) for place, each in enumerate(chosen)}
     else:
-        places, rows = headings_read(path, first, columns, units), rows[1:]
+        places, rows, heads = {}, rows[1:], [*map(heading_read, first)]
+        for column in columns:
+            for place, (name, unit) in enumerate(heads):
+                if name in column.names and column.name not in places:
+                    by = units.get(column.measures, 1.0)  # without a unit that which is said for what the column measures
+                    if unit:
+                        by = unit_factor(unit, (column.measures,), f"{path.name}, line 1, {name}")
+                    places[column.name] = place, by
+            if column.name not in places and not column.optional:
+                named = " or ".join(column.names)
+                raise DefinitionError(f"{path.name}, line 1: there is no column {named}; its headings are {', '.join(first)}.")
     found: dict[str, list[float]] = {name: [] for name in places}
     for line, row in rows:
         ensure(len(row) == len(first), f"{path.name}, line {line}: {len(row)} fields where the first line has {len(first)}.")
@@ -434,22 +444,3 @@ def points_of_file(path: Path, columns: Sequence[PointColumn], units: Mapping[st
             found[name].append(float(row[place]) * by)
     ensure(rows, f"{path.name} has headings and no row; write a row for each point.")
     return {name: np.array(values) for name, values in found.items()}
-
-
-def headings_read(
-    path: Path, cells: Sequence[str], columns: Sequence[PointColumn], units: Mapping[str, float]
-) -> dict[str, tuple[int, float]]:
-    """Return where each column stands, and the factor of its unit; DefinitionError where one is missing."""
-    found: dict[str, tuple[int, float]] = {}
-    heads = [*map(heading_read, cells)]
-    for column in columns:
-        for place, (name, unit) in enumerate(heads):
-            if name in column.names and column.name not in found:
-                by = units.get(column.measures, 1.0)  # without a unit that which is said for what the column measures
-                if unit:
-                    by = unit_factor(unit, (column.measures,), f"{path.name}, line 1, {name}")
-                found[column.name] = place, by
-        if column.name not in found and not column.optional:
-            named = " or ".join(column.names)
-            raise DefinitionError(f"{path.name}, line 1: there is no column {named}; its headings are {', '.join(cells)}.")
-    return found

@@ -20,9 +20,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..vectors import FloatArray, Mask
+from ..vectors import FloatArray, Index, Mask
 
-Index: TypeAlias = npt.NDArray[np.intp]
 Look: TypeAlias = Callable[[Index, FloatArray], tuple[FloatArray, Mask]]
 """`look(leg, t)` at places (n,) of all D designs, or (D, n) of each its own: the values of K functions (K, D, n), NaN where there is none,
 and whether each pose (D, n) is reached."""

@@ -35,7 +35,7 @@ def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]
             if name.lower() not in there:
                 raise unknown("Layer", name, there.values(), where=f"{found.file}, --layer {role}={name}")
     own = "it is a true-size drawing of this package, whose bodies are outlines; import the machine's own file"
-    found.ensure("links" in layers or not OWN <= there.keys(), f"{own}, or the centre lines as links, --layer links=centre_lines.")
+    found.ensure("links" in layers or not there.keys() >= OWN, f"{own}, or the centre lines as links, --layer links=centre_lines.")
     found.unit = METRES.get(int(drawing.header.get("$INSUNITS", 0)))
     DrawingReader(found, entities, {role: [each.lower() for each in layers.get(role, (role,))] for role in ROLES}).read()
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from io import StringIO
 from math import cos, sin
-from typing import Any
-from xml.etree.ElementTree import Element, ParseError, SubElement, XMLPullParser, indent, tostring
+from xml.etree.ElementTree import Element, ParseError, SubElement, indent, iterparse, tostring
 
 from ..errors import FileError, ensure
 from ..units import inch, mm
@@ -13,7 +13,6 @@ from .found import FoundDrive, FoundMachine
 from .machine_sketch import MachineSketch, written
 
 DEEPEST = 8
-CHUNK = 65_536
 DOTS = 96.0
 """Units of a file in an inch."""
 SHOWN = {"inches": inch / DOTS, "millimeters": 24.5 * mm / DOTS}
@@ -72,17 +71,13 @@ def parsed_xml(found: FoundMachine, text: str) -> Element:
     """Return the root of an XML text; FileError for entities, for too deep an one, and for other text."""
     has_types = "<!" in text.replace("<!--", "")
     found.ensure(not has_types, "it declares a document type or entities, which are not read; take that line out.")
-    parser: Any = XMLPullParser(("start", "end"))
     root: Element | None = None
     depth = 0
     try:
-        for begin in range(0, len(text), CHUNK):
-            parser.feed(text[begin : begin + CHUNK])
-            for event, element in parser.read_events():
-                root = element if root is None else root
-                depth += 1 if event == "start" else -1
-                found.ensure(depth <= DEEPEST, f"elements stand more than {DEEPEST} deep in each other; a file of Linkage has 3.")
-        parser.close()
+        for event, element in iterparse(StringIO(text), ("start", "end")):
+            root = element if root is None else root
+            depth += 1 if event == "start" else -1
+            found.ensure(depth <= DEEPEST, f"elements stand more than {DEEPEST} deep in each other; a file of Linkage has 3.")
     except (ParseError, ValueError) as error:
         raise FileError(f"{found.file}: it is no XML: {error}.") from None
     found.ensure(root is not None, "it is empty.")

@@ -144,24 +144,23 @@ class MachineSketch:
         ensure(self.points, f"{self.name}: no point is drawn; a sketch begins with points and links.")
         for name, place in self.points.items():
             ensure(all(map(is_number, place)), f"{self.name}: {name} stands at {place}; give finite coordinates.")
-        numbered: list[tuple[str, tuple[object, ...]]] = [
-            (f"the slide {name}", (slide.along,)) for name, slide in self.slides.items() if not is_listed(slide.along)
-        ]
+        numbered: dict[str, tuple[object, ...]] = {
+            f"the slide {name}": (slide.along,) for name, slide in self.slides.items() if not is_listed(slide.along)
+        }
         for name, each in self.drives.items():
             sizes = [size for size in (each.bore, each.rod) if size is not None]
-            numbered.append((f"the drive {name}", (each.start, each.end, each.drawn, *sizes)))
-        numbered += [(f"the length {label}", (value,)) for label, value in self.lengths.items()]
-        numbered += [(f"the weight {name}", (weight.mass,)) for name, weight in self.weights.items()]
-        numbered += [(f"the force {name}", force.vector) for name, force in self.forces.items()]
-        for what, numbers in numbered:
+            numbered[f"the drive {name}"] = (each.start, each.end, each.drawn, *sizes)
+        numbered |= {f"the length {label}": (value,) for label, value in self.lengths.items()}
+        numbered |= {f"the weight {name}": (weight.mass,) for name, weight in self.weights.items()}
+        numbered |= {f"the force {name}": force.vector for name, force in self.forces.items()}
+        for what, numbers in numbered.items():
             ensure(all(map(is_number, numbers)), f"{self.name}: {what} has {', '.join(map(cited, numbers))}; give finite numbers.")
-        named = [("what is fixed", self.fixed), *((f"the link {name}", points) for name, points in self.links.items())]
+        named = {"what is fixed": self.fixed} | {f"the link {name}": points for name, points in self.links.items()}
         for name, slide in self.slides.items():
-            named.append((f"the slide {name}", (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))))
-        named += [(f"the drive {name}", drive.ends) for name, drive in self.drives.items()]
-        loads: list[tuple[str, SketchWeight | SketchForce]] = [*self.weights.items(), *self.forces.items()]
-        named += [(f"the load {name}", (load.point,)) for name, load in loads]
-        for what, names in named:
+            named[f"the slide {name}"] = (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))
+        named |= {f"the drive {name}": drive.ends for name, drive in self.drives.items()}
+        named |= {f"the load {name}": (load.point,) for each in (self.weights, self.forces) for name, load in each.items()}
+        for what, names in named.items():
             missing = [each for each in names if each not in self.points]
             ensure(not missing, f"{self.name}: {what} names {', '.join(missing)}, which is not among the points.")
             ensure(len({*names}) == len(names), f"{self.name}: {what} names a point twice.")

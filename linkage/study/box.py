@@ -12,11 +12,10 @@ from ..checks import is_listed, require, require_whole, unfit
 from ..errors import DefinitionError, cited, one_word, unknown
 from ..frozen import immutable
 from ..mechanism import Mechanism, require_mechanism
-from ..numeric.line import Index
 from ..plan import Plan
-from ..program import FloatArray
 from ..quantities import is_number
 from ..units import amount_or_float, show, shown_number, unit_sign
+from ..vectors import FloatArray, Index
 from .checks import unit_of
 from .designs import DesignValues, check_once
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from hashlib import blake2b
 from math import prod
 from time import perf_counter, thread_time
-from typing import Any, Protocol, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -129,45 +129,25 @@ def array_part(part: Array, start: int, stop: int) -> npt.NDArray[np.float64]:
 
 # What a worker does: one batch of designs, piece by piece, each piece measured by itself.
 
-Measure: TypeAlias = Callable[[Any], Mapping[str, Any]]
+Measure: TypeAlias = Callable[..., Mapping[str, Any]]
 """`measure(machine)`: a mechanism with some designs in arrays, measured: arrays (designs,) by name."""
-
-
-class StudyWork(Protocol):
-    """The work common to all batches of a study: some of its designs, `piece` at a time, on one back end."""
-
-    @property
-    def machine(self) -> Mechanism:
-        """The machine whose designs they are."""
-
-    @property
-    def piece(self) -> int:
-        """How many designs are looked at at a time."""
-
-    @property
-    def backend(self) -> str:
-        """The back end, which does not change."""
-
-    @property
-    def what(self) -> str:
-        """The data to send to a worker, in words."""
-
-    def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
-        """Return the results of the designs from start to before stop, of each piece: arrays whose first axis is that of the designs."""
 
 
 @immutable
 class Task:
-    """The work of a survey: `measure` is called for `piece` designs at a time."""
+    """The work common to all batches of a study: `measure` is called for `piece` designs of a machine at a time, on one back end.
+
+    `what` are the data to send to a worker, in words.
+    """
 
     machine: Mechanism
     measure: Measure
     piece: int
     backend: str
-    what: str = "measure or the mechanism's class"
+    what: str
 
     def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
-        """Return the measures of the designs from start to before stop, of each piece."""
+        """Return the results of the designs from start to before stop, of each piece: arrays whose first axis is that of the designs."""
         whole, title, done = self.machine.replaced(**rows), self.machine.plan.title, []
         for first in range(start, stop, self.piece):
             last = min(first + self.piece, stop)
@@ -193,7 +173,7 @@ class Batch:
     values: Mapping[str, Array] | None = None
 
 
-def measure_batch(task: StudyWork, start: int, stop: int, rows: DesignValues, attempt: int) -> Batch:
+def measure_batch(task: Task, start: int, stop: int, rows: DesignValues, attempt: int) -> Batch:
     """Return a measured batch; StudyError where `measure` fails, DefinitionError where it returns a wrong value.
 
     `attempt` sets a second try apart from the first for executors that know a call by its arguments.
@@ -223,7 +203,7 @@ def result_arrays(title: str, found: object, size: int, where: str) -> dict[str,
     return arrays
 
 
-def check_same_results(task: StudyWork, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
+def check_same_results(task: Task, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
     """Raise DefinitionError where results have not the names and kinds that others have."""
     here, there = (", ".join(f"{name} ({each[name].dtype})" for name in sorted(each)) for each in (found, known))
     ensure(here == there, f"{task.machine.plan.title}: measure returned {here} for {where}, elsewhere {there}; return the same.")

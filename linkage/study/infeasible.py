@@ -69,9 +69,7 @@ class InfeasibleError(StudyError):
         self.alternatives = tuple(alternatives)
 
 
-def infeasible_error(
-    problem: Problem, ended: Sequence[SearchEnd], looked: Mapping[tuple[int, ...], FloatArray] = NOTHING
-) -> StudyError:
+def infeasible_error(problem: Problem, ended: Sequence[SearchEnd], looked: Mapping[tuple[int, ...], FloatArray] = NOTHING) -> StudyError:
     """Return the error of a search that found no design which keeps everything.
 
     `ended` are the ends of local searches, `looked` the unit coordinates (m, n) of designs of each combination that were looked at.

@@ -14,12 +14,10 @@ from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
 from ..motion.requests import may_be_unlimited
-from ..numeric.line import Index
-from ..plan import Mask
-from ..program import FloatArray, RunOptions
+from ..program import RunOptions
 from ..quantities import is_number
 from ..units import display_unit
-from ..vectors import Numbers
+from ..vectors import FloatArray, Index, Mask, Numbers
 from .checks import check_in_count
 from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
@@ -226,7 +224,7 @@ def monte_carlo(
     require(fits, "percentiles", percentiles, "percentages from 0 to 100 are expected, such as (5, 50, 95)")
     order = tuple(sorted({float(each) for each in percentiles}))
     way = RunOptions(one_word("backend", backend, ("numpy", "numba")), threads)
-    designs = sampled_designs(machine, named, count, method, seed, threads)
+    designs = sampled_designs(machine, named, count, method, seed)
     with unwarned(), np.errstate(all="ignore"):
         run = MonteCarloRun(poses, machine.replaced(**designs), count, way, order)
         run.measure(asked, conditions)

@@ -15,24 +15,10 @@ from ..checks import is_listed, require, require_number, require_whole
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, ensure, known_name, one_word
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Judge, Over, Request
-from ..motion.measures import (
-    At,
-    CombinedMeasure,
-    Constraint,
-    FixedNumber,
-    Leaf,
-    Measure,
-    Worst,
-    conditions_of,
-    in_case,
-    mean_in_cases,
-    require_quantity,
-    shares_of,
-    strokes_behind,
-    words_of,
-)
+from ..motion import Judge, Over, Request, measures
+from ..motion.measures import At, CombinedMeasure, Constraint, FixedNumber, Leaf, Measure, Worst, in_case, strokes_behind, words_of
 from ..motion.requests import Combined
+from ..numeric.descent import without_repeats
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, ref
 from ..statics.applied import case_of
@@ -220,7 +206,7 @@ def optimise(
     if sides:
         text = f"the side of {next(iter(sides))} is varied by synthesise alone; for optimise write a class for each side"
         raise DefinitionError(f"{title}: {text}, class Other({type(machine).__name__}).")
-    constraints = [*conditions_of(subject_to, machine), *space.conditions]
+    constraints = [*measures.conditions_of(subject_to, machine), *space.conditions]
     over, occurring = where_searched(machine, over, travels)
     cases, shares = cases_searched(machine, case, occurring)
     judge = machine.judge(over)
@@ -231,13 +217,13 @@ def optimise(
             raise DefinitionError(f"{title}: several objectives are sought in one load case, without robust= and without folder=.")
         from .pareto import front
 
-        goals = [mean_in_cases(each, shares) if shares else in_case(each, cases[0]) for each in objectives]
+        goals = [measures.mean_in_cases(each, shares) if shares else in_case(each, cases[0]) for each in objectives]
         problem = Problem(machine, goals, held, space, 1.0, over)
         problem.count.limit = limit or default_limit(problem, FRONT_DESIGNS)
         check_objectives_move(problem)
         with progress_told(progress, machine.plan.heading) as tell:
             return front(problem, seed, tell)
-    sought = [mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
+    sought = [measures.mean_in_cases(objectives[0], shares)] if shares else [in_case(objectives[0], each) for each in cases]
     if all(each is objectives[0] for each in sought):
         sought = [objectives[0]]  # it names its load cases itself
     best: Optimum | None = None
@@ -292,7 +278,7 @@ def cases_searched(machine: Mechanism, case: Any, occurring: Sequence[Case]) -> 
 
     DefinitionError for one that is unknown, and for none.
     """
-    shares = shares_of(case, f"{machine.plan.title}: case") if isinstance(case, Mapping) else {}
+    shares = measures.shares_of(case, f"{machine.plan.title}: case") if isinstance(case, Mapping) else {}
     listed = list(case) if is_listed(case) else occurring if case is None else [case]
     given: Sequence[Case] = [*shares] if shares else listed
     cases = [None if isinstance(each, str) and each == PLAIN_CASE else each for each in given]
@@ -324,7 +310,7 @@ def objectives_of(machine: Mechanism, minimise: object, maximise: object) -> tup
             if isinstance(each, Measure):
                 group.append(each)
                 continue
-            quantity = require_quantity(each, "minimise")
+            quantity = measures.require_quantity(each, "minimise")
             if isinstance(quantity, Worst) or strokes_behind(machine.plan, quantity):
                 remedy = "say which is meant, least(...), most(...)"
                 raise DefinitionError(f"{title}: {words_of(quantity)} has a value at every pose: {remedy}.")
@@ -588,15 +574,13 @@ class DesignSearch:
     def starts_in(self, screened: EvaluatedDesigns, combinations: int) -> list[FloatArray]:
         """Return where the local searches of a combination begin: the best designs that stand apart, that of today always."""
         many = 1 if self.method == "local" else max(self.many if combinations == 1 else self.many // 2, 1)
-        chosen: list[FloatArray] = []
-        apart = NEAR * np.sqrt(screened.unit.shape[1])
-        for place in screened.order:
-            unit = screened.unit[place]
-            if screened.begins[place] and all(np.linalg.norm(unit - each) > apart for each in chosen):
-                chosen.append(unit)
-            if len(chosen) == many:
-                break
-        present = screened.unit[0]
+        unit, apart = screened.unit, NEAR * np.sqrt(screened.unit.shape[1])
+
+        def is_near(known: int, place: int) -> bool:
+            return bool(np.linalg.norm(unit[place] - unit[known]) <= apart)
+
+        chosen = [unit[place] for place in without_repeats(screened.order[screened.begins[screened.order]], is_near, many)]
+        present = unit[0]
         if screened.begins[0] and not any(np.array_equal(each, present) for each in chosen):
             chosen = [*chosen[: max(many - 1, 0)], present]
         return chosen

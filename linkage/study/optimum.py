@@ -23,11 +23,10 @@ from ..mechanism import Mechanism
 from ..motion import Over
 from ..motion.measures import Constraint, FixedNumber, Integral, Leaf, Measure, measure_of, measure_unit
 from ..motion.motion_verdicts import domain_words
-from ..numeric.line import Index
-from ..plan import Mask, Plan
-from ..program import FloatArray
+from ..plan import Plan
 from ..shown import HasSentence, Shown, text_columns
 from ..units import deg, display_unit, factor, mm, show, shown_in
+from ..vectors import FloatArray, Index, Mask
 from .box import unit_points
 from .checks import unit_of
 from .poles import check_bounded
@@ -785,19 +784,14 @@ class ResultRow:
     gain: float = 0.0
     by: str = ""
 
-    @property
-    def numbers(self) -> tuple[float, ...]:
-        """The numbers in the unit that the row is shown in."""
-        is_met = abs(self.spare) <= ROUNDED_TO_NOTHING * max(abs(self.after), abs(self.limit))
-        spare = 0.0 if is_met else self.spare
-        return tuple(each / factor(shown_in(self.unit)) for each in (self.before, self.after, self.rounded, self.limit, spare))
-
 
 def result_cells(rows: Sequence[ResultRow], digits: str = "", of_gain: str = "") -> list[list[str]]:
     """Return headings and rows, their numbers with so many digits, ".6g", in full precision without; a number that is none is empty."""
     cells = [list(RESULT_HEADINGS)]
     for row in rows:
-        numbers = ["" if np.isnan(value) else f"{float(value):{digits}}" for value in row.numbers]
+        is_met, size = abs(row.spare) <= ROUNDED_TO_NOTHING * max(abs(row.after), abs(row.limit)), factor(shown_in(row.unit))
+        values = (row.before, row.after, row.rounded, row.limit, 0.0 if is_met else row.spare)
+        numbers = ["" if np.isnan(value) else f"{float(value / size):{digits}}" for value in values]
         gain = [f"{100.0 * float(row.gain):{of_gain}}", row.by] if row.gain else ["", ""]
         cells.append([row.what, row.name, shown_in(row.unit), *numbers, *gain])
     return cells

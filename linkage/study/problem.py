@@ -108,7 +108,7 @@ class PoseSet:
     singles: list[Mapping[str, float]] = field(default_factory=list)
     weights: FloatArray | None = None
     inner: str = ""
-    quantities: list[object] = field(default_factory=list)
+    quantities: dict[object, object] = field(default_factory=dict)
     alone: bool = False
     """Whether its single pose is kept apart from others."""
 
@@ -118,11 +118,9 @@ class PoseSet:
 
     def place(self, quantity: object) -> int:
         """Return the number of a quantity, entered where it is new."""
-        for place, known in enumerate(self.quantities):
-            if known is quantity or (isinstance(known, str) and known == quantity and isinstance(quantity, str)):
-                return place
-        self.quantities.append(quantity)
-        return len(self.quantities) - 1
+        key = quantity if isinstance(quantity, str) else id(quantity)
+        self.quantities.setdefault(key, quantity)
+        return [*self.quantities].index(key)
 
     @cached_property
     def parts(self) -> dict[str, FloatArray]:
@@ -189,6 +187,11 @@ class Evaluated:
         """The size of the largest of each leaf's values; zero where none has one."""
         known = {leaf: rows.values[np.isfinite(rows.values)] for leaf, rows in self.rows.items()}
         return {leaf: float(np.abs(values).max(initial=0.0)) for leaf, values in known.items()}
+
+    def values_of(self, measure: Measure) -> FloatArray:
+        """Return a measure of designs (m,) [SI], NaN where it has no value or a design is not assembled."""
+        with np.errstate(all="ignore"):
+            return np.where(self.lost_of(measure) | ~self.is_assembled, np.nan, measure.from_leaves(self.numbers.__getitem__))
 
     def lost_of(self, measure: Measure) -> Mask:
         """Return of which designs (m,) a leaf of a measure is lost."""
@@ -451,13 +454,10 @@ class Problem:
             if not self._can_be_asked:
                 raise
             self.refusal = str(error)
-        if m == 1:  # a design that is refused has no values
-            n, rows = len(self.space.variables) if slopes else 0, {}
-            for leaf in self.leaves:
-                poses, *_ = self._of_leaf[leaf]
-                count = 1 if isinstance(leaf, Integral) else prod(len(poses.axes[name]) for name in poses.outer)
-                rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)), np.zeros(1, bool))
-            return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)), np.zeros(1, bool), np.zeros(1))
+        if m == 1:  # a design that is refused has no values, at as many rows as the machine as it is set
+            own, none = self._look(self.machine.dimensions, 1, slopes=slopes), np.zeros(1, bool)
+            rows = {leaf: Rows(np.full_like(each.values, np.nan), np.zeros_like(each.slopes), none) for leaf, each in own.rows.items()}
+            return Evaluated(rows, np.zeros((1, 0)), own.margin_slopes[:, :0], none, np.zeros(1))
         self.count.designs -= m
         with self.count.without_limit():
             each_of = [{name: float(np.ravel(value)[k]) if np.ndim(value) else value for name, value in designs.items()} for k in range(m)]
@@ -501,7 +501,7 @@ class Problem:
     def _sampling(self, poses: PoseSet) -> Sampling:
         if poses not in self._samplings:
             strokes = tuple(name for name in poses.axes if self.ranges[name].follows)
-            self._samplings[poses] = Sampling(self.plan, poses.quantities, (*self.owners, *strokes))
+            self._samplings[poses] = Sampling(self.plan, [*poses.quantities.values()], (*self.owners, *strokes))
         return self._samplings[poses]
 
     @cached_property
@@ -601,13 +601,8 @@ class Problem:
     def merits_of_each(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return of designs (m, n) each objective (k, m), the misses in parts of the conditions' sizes, and the part reached."""
         look = self.evaluated(self.dimensions_at(unit, combination))
-        shape, numbers = look.reached.shape, look.numbers
-        with np.errstate(all="ignore"):
-            found = (np.asarray(each.from_leaves(numbers.__getitem__), float) for each in self.objectives)
-            values = np.array([np.broadcast_to(each, shape) for each in found])
         missing = self._missing(look).max(axis=0, initial=0.0)
-        values = np.where(np.array([look.lost_of(each) for each in self.objectives]).reshape(len(values), -1), np.nan, values)
-        return np.where(look.is_assembled, values, np.nan), np.where(look.is_assembled, missing, np.nan), look.reached
+        return np.array([look.values_of(each) for each in self.objectives]), np.where(look.is_assembled, missing, np.nan), look.reached
 
     def missing_of_each(self, combination: Sequence[int], unit: FloatArray) -> FloatArray:
         """Return by how much of its size designs (m, n) miss each condition, shape (conditions, m); infinite out of reach."""
@@ -853,14 +848,10 @@ def scale_among(constraint: Constraint, sizes: Mapping[Leaf, float], values: Map
     return (max(given, EXACT * size) if given > 0.0 else size) or 1.0
 
 
-def missed(constraint: Constraint, numbers: Mapping[Leaf, Any], size: float | None = None) -> FloatArray:
-    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing.
-
-    Without a size it is the larger of the two sides, of each design.
-    """
+def missed(constraint: Constraint, numbers: Mapping[Leaf, Any], size: float) -> FloatArray:
+    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing."""
     left, right = (np.asarray(side.from_leaves(lambda leaf: numbers[leaf]), float) for side in constraint.compared)
-    measured = np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300) if size is None else size
-    short = constraint.short(left, right) / measured
+    short = constraint.short(left, right) / size
     says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
     unlimited = np.isnan(short) & (constraint.symbol != "==") & says_nothing
     return np.where(unlimited, 0.0, np.where(np.isnan(short), np.inf, short))

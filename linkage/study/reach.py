@@ -8,11 +8,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..frozen import frozen, immutable
+from ..frozen import frozen
 from ..motion.many_places import ManyPlaces, PlacePoses
-from ..numeric.line import Index
-from ..plan import Mask
-from ..program import FloatArray
+from ..vectors import FloatArray, Index, Mask
 
 Turn: TypeAlias = tuple[ManyPlaces, Index]
 """Poses with some strokes standing at values: what solves for the others, and the order of all strokes in it."""
@@ -27,23 +25,15 @@ ROUNDS, PARTS, NARROWED, AT_END = 4, 8, 6, 1e-5
 what counts as an end."""
 
 
-@immutable
 class Reach:
     """The reach of a point: heights of level lines, ascending, and the parts of each that are reached, (line, left, right) [m]."""
 
-    heights: FloatArray
-    spans: tuple[tuple[int, float, float], ...]
-    is_single: bool
-    area: float
-
-    @classmethod
-    def of(cls, turns: Sequence[Turn], rest: FloatArray, poses: Poses) -> Reach:
-        """Return all that is reached; `rest` are kept values."""
+    def __init__(self, turns: Sequence[Turn], rest: FloatArray, poses: Poses) -> None:
         lines = LevelLines(turns, rest, poses)
-        heights = np.linspace(*lines.tall, 2 * PANELS + 1)
+        heights: FloatArray = np.linspace(lines.tall[0], lines.tall[1], 2 * PANELS + 1)
         known = dict(zip(heights.tolist(), lines.spans(heights), strict=True))
         panels = [(heights[k], heights[k + 1], heights[k + 2]) for k in range(0, 2 * PANELS, 2)]
-        is_single, area = lines.is_single, 0.0
+        self.is_single, area = lines.is_single, 0.0
         for level in range(LEVELS + 1):
             size = max(area + sum(simpson(panel, known)[0] for panel in panels), 1e-12)
             rough = [panel for panel in panels if level < LEVELS and simpson(panel, known)[1] > CLOSE * size]
@@ -53,9 +43,8 @@ class Reach:
             if len(new):
                 known |= zip(new.tolist(), lines.spans(new), strict=True)
             panels = halves
-        ordered = sorted(known)
-        spans = tuple((k, left, right) for k, height in enumerate(ordered) for left, right in known[height])
-        return cls(frozen(ordered), spans, is_single, float(area))
+        self.heights, self.area = frozen(sorted(known)), float(area)
+        self.spans = tuple((k, left, right) for k, height in enumerate(sorted(known)) for left, right in known[height])
 
     @property
     def border(self) -> FloatArray:

@@ -13,7 +13,7 @@ from ..frozen import immutable
 from ..motion import Grid, Motion, NodeRequest, Request
 from ..motion.evaluation import BulkProgram, Evaluation
 from ..motion.functions import evaluate_bound
-from ..motion.grid import Angles, angles_of
+from ..motion.grid import angles_of
 from ..motion.measures import Leaf, constant_part, operation, traced, words_of
 from ..motion.requests import Trait, slope
 from ..plan import Mask, Plan
@@ -44,7 +44,6 @@ class Samples:
     margin_slopes: FloatArray | None = None
 
 
-@immutable
 class SampleProgram:
     """Requests and derivatives of some of them as one kernel, so that a look at a design is one call.
 
@@ -53,24 +52,14 @@ class SampleProgram:
     be without a value though no guard reports it.
     """
 
-    requests: tuple[Request, ...]
-    rows: int
-    kernel: Kernel
-    angles: Angles
-    slopes: tuple[Kernel, Angles] | None
-    may_fail: bool
-
-    @classmethod
-    def of(cls, plan: Plan, requests: tuple[Request, ...], sloped: Sequence[Request], owners: tuple[str, ...]) -> SampleProgram:
-        """Return the program of requests, and of derivatives of some by the owners, on a plan that is not traced yet."""
-        bulk = BulkProgram.compiled_on(plan, requests)
-        own = bulk.kernel
+    def __init__(self, plan: Plan, requests: tuple[Request, ...], sloped: Sequence[Request], owners: tuple[str, ...]) -> None:
+        bulk = BulkProgram.compiled_on(plan, requests)  # on a plan that is not traced yet
+        own, self.requests, self.may_fail = bulk.kernel, requests, bulk.may_fail
         following = [node for each in requests if Trait.FOLLOWS_ANGLES in each.traits for node in each.nodes(plan)]
         shares = [node for each in sloped for node in slope(each, owners).nodes(plan)] if owners else []
-        return cls(
-            requests, len(own.outputs), Kernel([*own.outputs, *shares], own.guards), angles_of(plan, [*following, *shares]),
-            (Kernel(shares), angles_of(plan, shares)) if shares else None, bulk.may_fail,
-        )  # fmt: skip
+        self.rows, self.kernel = len(own.outputs), Kernel([*own.outputs, *shares], own.guards)
+        self.angles = angles_of(plan, [*following, *shares])
+        self.slopes = (Kernel(shares), angles_of(plan, shares)) if shares else None
 
     def __call__(self, grid: Grid) -> tuple[FloatArray, FloatArray]:
         """Return the requests (rows, ...) over a grid, NaN where they have no value, and the derivatives (shares, ...) of one design."""
@@ -148,7 +137,7 @@ class Sampling:
             requests = (*loops, all_placed(), *self._traced.values(), *(each for _, each in self._divisors))
             sloped = [*self._traced.values(), *loops] if slopes else []
             key = "samples", tuple(each.key for each in requests), len(sloped), self.owners
-            self._programs[asked] = self.plan.made(key, lambda plan: SampleProgram.of(plan, requests, sloped, self.owners))
+            self._programs[asked] = self.plan.made(key, lambda plan: SampleProgram(plan, requests, sloped, self.owners))
         return self._programs[asked]
 
     def _differences(self, grid: Grid, quantity: object) -> FloatArray:

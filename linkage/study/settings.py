@@ -12,7 +12,7 @@ from ..errors import DefinitionError, cited, ensure, known_name, unwarned
 from ..frozen import FrozenDict, immutable
 from ..language import said
 from ..mechanism import Mechanism
-from ..motion import Motion, Request, Target, last_holding, stroke_display_unit
+from ..motion import Motion, Target, last_holding, stroke_display_unit
 from ..motion.evaluation import BulkProgram
 from ..motion.grid import recalled
 from ..motion.measures import least, measure_unit, words_of
@@ -257,7 +257,7 @@ class Solutions(HasSentence):
 def solutions_for(machine: Mechanism, vary: Mapping[str, object], targets: Sequence[Target], points: int | None) -> Solutions:
     """Return the settings of a box that give all targets; see `settings_for`."""
     check_one_design(machine)
-    search = Search.of(machine, vary, targets)
+    search = Search(machine, vary, targets)
     box, k, plan = search.box, len(search.box.ranges), machine.plan
     ensure(k or len(box.choices) >= 2, f'{plan.title}: nothing may vary; give a range such as {{"MK": (0.5, 1.3)}} or a list of choices.')
     what = f"{len(targets)} target{'s' * (len(targets) > 1)} leave{'s' * (len(targets) == 1)} {k} ranges a family of settings"
@@ -290,37 +290,27 @@ TOLD = 1e-3
 """Of a target's own units: a miss that is smaller is not told."""
 
 
-@immutable
 class Search:
     """A box of settings of a machine, and the goals: targets, their requests, and their poses.
 
-    `scale` says in how many units each target is weighed.
+    `scale` says in how many units each target is weighed. DefinitionError for a pose that is not said.
     """
 
-    machine: Mechanism
-    box: Box
-    targets: tuple[Target, ...]
-    bound: tuple[Request, ...]
-    poses: StudyPoses
-    wanted: FloatArray
-    scale: FloatArray
-
-    @classmethod
-    def of(cls, machine: Mechanism, vary: Mapping[str, object], targets: Any) -> Search:
-        """Return targets bound to a machine; DefinitionError for anything else, and for a pose that is not said."""
-        plan, box = machine.plan, Box.of(machine, vary)
+    def __init__(self, machine: Mechanism, vary: Mapping[str, object], targets: Any) -> None:
+        plan, self.machine, self.box = machine.plan, machine, Box.of(machine, vary)
         for each in targets_given(targets, plan.title, 'such as [Target("tilt", 0.0, S=0.1)]'):
             expected = "one number is expected for the value, in SI. An array is a path, of follow(...)"
             ensure(not each.is_path, f"{plan.title}: {each!r}: {expected}.")
             if set(each.strokes) != set(machine.strokes):
                 raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
             each.check(plan)
-        bound = tuple(traced_number(plan, each.quantity) for each in targets)
+        self.targets: tuple[Target, ...] = tuple(targets)
+        self.bound = tuple(traced_number(plan, each.quantity) for each in targets)
         strokes = {name: np.array([each.strokes[name] for each in targets]) for name in machine.strokes}
-        scale = [each.miss(plan, float(each.value)) for each in targets]
+        self.wanted = np.array([each.value for each in targets])
+        self.scale = np.array([each.miss(plan, float(each.value)) for each in targets])
         with unwarned():
-            poses = StudyPoses(Motion(plan, machine.dimensions, strokes, "nan"))
-        return cls(machine, box, tuple(targets), bound, poses, np.array([each.value for each in targets]), np.array(scale))
+            self.poses = StudyPoses(Motion(plan, machine.dimensions, strokes, "nan"))
 
     def misses(self, unit: FloatArray, choice: Index) -> FloatArray:
         """Return how far settings are off each target, in its units, shape (m, targets); NaN where they have no value.

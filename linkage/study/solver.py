@@ -157,7 +157,6 @@ class Local:
         equations = tuple(each.margin for each in problem.constraints if each.symbol == "==")
         self._divisors = divisors((*problem.objectives, *(each.margin for each in problem.constraints)))
         self._signs: tuple[float, ...] | None = None
-        self._watch: Watch | None = None
         self._needed = {leaf for each in (*problem.objectives, *equations) for leaf in each.leaves}
         first = self.evaluated_at(start)
         ensure(bool(first.is_assembled[0]), "A local search starts from a design that can be assembled.")
@@ -384,25 +383,41 @@ class Local:
         return np.concatenate([row.values for row in rows]), np.concatenate([row.slopes for row in rows])
 
     def _sequential(self, z: FloatArray, bounds: object, most: int) -> FloatArray:
-        """Return the result of SLSQP."""
+        """Return the result of SLSQP, stopped where it gets no further for long, as at an edge of reach; the best on its way is noted."""
         from scipy.optimize import minimize
+
+        best, since, least = np.array(z, float), 0, np.inf
+        self._fitted_to = best[: self.n]
+
+        def merits(at: FloatArray) -> tuple[float, float]:
+            value, _ = self.objective(at)
+            return value, value + MISSING * max(self.violation(at), 0.0)
+
+        def watched(at: FloatArray) -> float:
+            nonlocal best, since, least
+            (value, merit), since = merits(at), since + 1
+            if merit < least - NO_GAIN * (1.0 + abs(merit)):
+                best, since, least = np.array(at, float), 0, merit
+                self._fitted_to = best[: self.n]
+            elif since > PATIENCE:
+                raise NoProgressError
+            return value
 
         parts = {"fun": lambda at, equations: self._stacked(at, equations)[0], "jac": lambda at, equations: self._stacked(at, equations)[1]}
         kinds = [(kind, equations) for kind, equations in (("ineq", False), ("eq", True)) if self._stacked(z, equations)[0].size]
         held = [{"type": kind, "args": (equations,), **parts} for kind, equations in kinds]
-        watch = self._watch = Watch(self, z)  # kept: the best so far is known where the solver is stopped
         try:
             result = minimize(
-                watch.objective, z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
+                watched, z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
                 method="SLSQP", options={"maxiter": most, "ftol": TIGHT},
             )  # fmt: skip
         except NoProgressError:
-            return watch.best
+            return best
         except LimitReachedError:
             if self.elastic:
-                return watch.best
+                return best
             raise
-        return watch.better(np.asarray(result.x, float))
+        return best if least < merits(result.x)[1] - NO_GAIN * (1.0 + abs(least)) else np.asarray(result.x, float)
 
     def _fitted(self, squares: LeastSquares, z: FloatArray, ends: tuple[FloatArray, FloatArray], most: int) -> FloatArray:
         """Return the result of Levenberg and Marquardt's steps that keep all lines; its own unknowns are stored."""
@@ -487,8 +502,7 @@ class Local:
             return self.judged(unit)
         except LimitReachedError:
             with self.problem.count.without_limit():
-                best = self._fitted_to if self._watch is None else self._watch.best[: self.n]
-                return self.judged(self._nearest_good(np.clip(best, 0.0, 1.0)))
+                return self.judged(self._nearest_good(np.clip(self._fitted_to, 0.0, 1.0)))
 
     def least(self) -> SearchEnd | None:
         """Return the result of an elastic search by its samples alone; None where that is no design."""
@@ -655,32 +669,6 @@ def worth_in_order(problem: Problem, found: SearchEnd) -> tuple[bool, float]:
 
 class NoProgressError(Exception):
     """A solver gets no further."""
-
-
-class Watch:
-    """A local search's objective, which stops the solver where it has got no further for long, as at an edge of reach."""
-
-    def __init__(self, local: Local, start: FloatArray) -> None:
-        self.local, self.best, self.since, self.merit = local, np.array(start, float), 0, np.inf
-
-    def objective(self, z: FloatArray) -> float:
-        """Return the scaled objective; NoProgressError where there is no hope."""
-        value, merit = self.merits(z)
-        self.since += 1
-        if merit < self.merit - NO_GAIN * (1.0 + abs(merit)):
-            self.best, self.since, self.merit = np.array(z, float), 0, merit
-        elif self.since > PATIENCE:
-            raise NoProgressError
-        return value
-
-    def better(self, z: FloatArray) -> FloatArray:
-        """Return where the solver ended, or the best on its way where that is better."""
-        return self.best if self.merit < self.merits(z)[1] - NO_GAIN * (1.0 + abs(self.merit)) else z
-
-    def merits(self, z: FloatArray) -> tuple[float, float]:
-        """Return the scaled objective, and its sum with the misses."""
-        value, _ = self.local.objective(z)
-        return value, value + MISSING * max(self.local.violation(z), 0.0)
 
 
 def graded_leaf(leaf: Leaf, look: Evaluated) -> Graded:

@@ -19,13 +19,11 @@ from ..loads import ForceElement
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint, least
 from ..motion.regions import Disc, Region, inside_region, region_of
-from ..numeric.line import Index
 from ..plan import Plan, Reading, plan_measure, require_kind
-from ..program import FloatArray
 from ..quantities import is_number, label
 from ..surroundings import Outline
 from ..units import show
-from ..vectors import Side
+from ..vectors import FloatArray, Index, Side
 from .box import unit_points
 from .checks import unit_of
 from .designs import DesignValues, check_once

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from math import exp, inf, pi, sqrt
 from types import SimpleNamespace
@@ -157,21 +156,14 @@ HALF_CELL = 2.0**-31
 """Half the distance of the numbers of a Sobol sequence, which begin with zero."""
 
 
-def sampled_designs(
-    machine: Mechanism, tolerances: Mapping[str, Tolerance], count: int, method: str, seed: int, threads: int = 1
-) -> dict[str, FloatArray]:
+def sampled_designs(machine: Mechanism, tolerances: Mapping[str, Tolerance], count: int, method: str, seed: int) -> dict[str, FloatArray]:
     """Return dimensions (count,) by name, every one spread by the law of its tolerance and independent of the others.
 
     By a scrambled Sobol sequence, "sobol", a Latin hypercube, "latin", or pseudo-random numbers, "random"; the same for the same seed.
     """
     unit = unit_points(count, len(tolerances), method, seed)
     shift = HALF_CELL if method == "sobol" else 0.0
-
-    def column(place: int, name: str) -> FloatArray:
-        return np.asarray(machine[name] + tolerances[name].deviations(unit[:, place] + shift))
-
-    with ThreadPoolExecutor(threads) as pool:
-        return dict(zip(tolerances, pool.map(column, range(len(tolerances)), tolerances), strict=True))
+    return {name: machine[name] + each.deviations(column + shift) for column, (name, each) in zip(unit.T, tolerances.items(), strict=True)}
 
 
 def values_shifted(

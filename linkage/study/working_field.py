@@ -30,16 +30,15 @@ from ..motion.measures import words_of
 from ..motion.places import DECLARED, StrokeRanges
 from ..motion.planes import Planes, clearance, pairs_of
 from ..numeric.descent import descended
-from ..numeric.line import Index
 from ..numeric.linear import solved_systems
-from ..plan import Mask, Plan
-from ..program import FloatArray
+from ..plan import Plan
 from ..quantities import PoseCondition, Quantity, Reference, is_number, name_of, quantity, real
 from ..quantities import x as x_of
 from ..quantities import y as y_of
 from ..statics.applied import case_of
 from ..statics.carried import PROBE, SLIPPING, TIPPING, Direction, LoadAt, direction_words, greatest_load, pull_direction
 from ..units import show
+from ..vectors import FloatArray, Index, Mask
 from .checks import check_one_design
 from .load_rule import LoadRule, rule_of
 from .reach import Reach
@@ -259,7 +258,7 @@ def working_field(
         The loads and their limits.
     """
     check_one_design(machine)
-    search = FieldSearch.of(machine, point, x, y, along, hold, over, keep, lifts, rule_of(rule), case, without, limits)
+    search = FieldSearch(machine, point, x, y, along, hold, over, keep, lifts, rule_of(rule), case, without, limits)
     with unwarned(), np.errstate(all="ignore"):
         return search.field()
 
@@ -496,60 +495,43 @@ class LoadsFound:
         return order[np.append(place[1:] != place[:-1], True)] if len(order) else order
 
 
-@immutable
 class FieldSearch:
     """A field to look for: the places, the poses, the loads."""
 
-    machine: Mechanism
-    point: str
-    x: FloatArray
-    y: FloatArray
-    rest: FloatArray
-    many: ManyPlaces
-    loads: LoadAt
-    rule: LoadRule
-    limits: Mapping[str, FurtherLimit]
-    case: str
-    asked: tuple[object, ...]
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return FieldSearch.of, self.asked
-
-    @classmethod
-    def of(
-        cls, machine: Mechanism, point: Reference, x_given: object, y_given: object, along: object, hold: object, over: object, keep: Any,
+    def __init__(
+        self, machine: Mechanism, point: Reference, x_given: object, y_given: object, along: object, hold: object, over: object, keep: Any,
         lifts: Any, rule: LoadRule, case: Case, without: object, limits: Any,
-    ) -> FieldSearch:  # fmt: skip
-        asked = machine, point, x_given, y_given, along, hold, over, keep, lifts, rule, case, without, limits
-        plan, title = machine.plan, f"{machine.plan.title}: working_field"
+    ) -> None:  # fmt: skip
+        self._given = machine, point, x_given, y_given, along, hold, over, keep, lifts, rule, case, without, limits
+        self.machine, self.rule, plan, title = machine, rule, machine.plan, f"{machine.plan.title}: working_field"
         name = known_name("Point", name_of(point), plan.points, where=title)
         ensure(name in plan.moving, f"{title}: {name} stands still, so that nothing is lifted there; name a point that moves.")
-        axes = [axis_values(each, axis, title) for axis, each in (("x", x_given), ("y", y_given))]
-        across, up = axes[0].size, axes[1].size
+        self.point, self.x, self.y = name, axis_values(x_given, "x", title), axis_values(y_given, "y", title)
+        self.ascending, across, up = (np.sort(self.x), np.sort(self.y)), self.x.size, self.y.size
         if across * up > MOST_CELLS:
             raise DefinitionError(f"{title}: {across} by {up} are {across * up} cells, up to {MOST_CELLS} are looked at; give fewer.")
         fits = is_listed(keep) and all(isinstance(each, Target) and not each.is_path for each in keep)
         require(fits, f"{title}: keep", keep, 'a list of targets is expected, such as keep=[Target("tilt", 0.0)]')
-        targets = [Target(x_of(name), float(axes[0][0])), Target(y_of(name), float(axes[1][0])), *keep]
+        targets = [Target(x_of(name), float(self.x[0])), Target(y_of(name), float(self.y[0])), *keep]
         ranges = ranges_over(machine, over, title)
         still = {name: low for name, (low, high) in ranges.items() if low == high}
         hold = {**still, **hold} if isinstance(hold, Mapping) else hold or still
         check_strokes(plan, hold, targets, title)
         way = pull_direction(along, f"{title}: ")
         direction_words(way)  # refuses arrays, which are of the poses of a motion
-        many = ManyPlaces.for_targets(plan, machine.dimensions, targets, hold, where="working_field", ranges=ranges)
+        self.many = many = ManyPlaces.for_targets(plan, machine.dimensions, targets, hold, where="working_field", ranges=ranges)
         elements = plan.of_kind(ForceElement)
         left = names_among(without, "without", elements, title, '"load"')
         lifting = None if lifts is None else frozenset(names_among(lifts, "lifts", elements, title, '"boom"'))
-        loads = LoadAt(plan, many.places.designs, name, way, case, left, lifting, rule.pressure)
-        label = case_of(plan, case).label if case is not None else ""
+        self.loads = loads = LoadAt(plan, many.places.designs, name, way, case, left, lifting, rule.pressure)
+        self.case = case_of(plan, case).label if case is not None else ""
         odd = [name_of(each) for each in lifts or () if name_of(each) not in loads.bounded]
         if odd:
             remedy = f"name cylinders that hold and have a circuit: {', '.join(loads.bounded) or 'there are none'}"
             raise DefinitionError(f"{title}: lifts: {odd[0]} has no pressure to lift with; {remedy}.")
         if limits is not None:
             require_type(f"{title}: limits", limits, Mapping, 'limits by name are expected, limits={"rated load": 20 * kN}')
-        further = {str(each): further_limit(str(each), value, title) for each, value in (limits or {}).items()}
+        self.limits = further = {str(each): further_limit(str(each), value, title) for each, value in (limits or {}).items()}
         for each in further:
             if each in loads.kinds or each in (TIPPING, SLIPPING, CLEARANCE, OUT_OF_REACH, NOT_LIMITED):
                 raise DefinitionError(f"{title}: limits: {each} is a limiter already; give this one another name.")
@@ -558,20 +540,13 @@ class FieldSearch:
         if not loads.kinds and not further:
             what = f"{title}: nothing says what the machine carries: no cylinder has a circuit, nothing else has bounds"
             raise DefinitionError(f'{what}; declare one, LiftCircuit(lift, pressure=180 * bar), or give limits={{"rated load": 20 * kN}}.')
-        rest = np.array([float(each.value) for each in keep])
-        return cls(machine, name, axes[0], axes[1], rest, many, loads, rule, further, label, asked)
+        self.rest = np.array([float(each.value) for each in keep])
+        self.goals = self.goals_over(*self.ascending)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return FieldSearch, self._given
 
     # -- the places ----------------------------------------------------------------------------------------
-
-    @cached_property
-    def ascending(self) -> tuple[FloatArray, FloatArray]:
-        """The axes, ascending."""
-        return np.sort(self.x), np.sort(self.y)
-
-    @cached_property
-    def goals(self) -> FloatArray:
-        """The targets' values at each place (places, t), x running fastest, both ascending."""
-        return self.goals_over(*self.ascending)
 
     def goals_over(self, across: FloatArray, up: FloatArray) -> FloatArray:
         """Return the targets' values over places x by y (places, t), x running fastest."""
@@ -840,7 +815,7 @@ class FieldSearch:
     def reach(self) -> Reach:
         """All that the point reaches."""
         with unwarned(), np.errstate(all="ignore"):
-            return Reach.of([(many, order) for many, order, _ in self.turns], self.rest, self.poses)
+            return Reach([(many, order) for many, order, _ in self.turns], self.rest, self.poses)
 
     def area(self) -> float:
         """Return the area of all that is reached [m2]; where each place is reached on one branch exactly, by the slopes."""

@@ -16,9 +16,7 @@ from ..mechanism import Mechanism
 from ..motion import Motion, at_values, highest, out_of_reach, places_text, stroke_unit
 from ..motion.measures import words_of
 from ..numeric.box import highest_in
-from ..numeric.line import Index
-from ..plan import Mask
-from ..program import FloatArray
+from ..vectors import FloatArray, Index, Mask
 from .box import Box, setting_words
 from .checks import check_one_design, check_vary
 from .measured import QuantityLike, StudyPoses, function_value, quantity_values

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import combinations
 from math import pi
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -15,7 +14,6 @@ import numpy as np
 from ..assembly import chain_parts
 from ..checks import is_whole
 from ..errors import DefinitionError, cited, ensure, unwarned
-from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..mobility import MOST_LINKS, Form, canonical, chain_forms, joint_pairs
 from ..motion import Featured
@@ -218,12 +216,10 @@ class Inversion(Shown):
 
 def farthest(form: Form, start: int, among: list[int]) -> int:
     """Return the link that is most joints away from one, of several the first."""
-    away, reached = {start: 0}, [start]
-    for link in reached:
-        new = [other for other in range(len(form)) if form[link] >> other & 1 and other not in away]
-        away |= dict.fromkeys(new, away[link] + 1)
-        reached += new
-    return max(among, key=lambda link: away[link])
+    import networkx as nx
+
+    away = nx.single_source_shortest_path_length(nx.Graph(joint_pairs(form)), start)
+    return max(among, key=away.__getitem__)
 
 
 # A machine of an inversion: names for its joints, a drawing, a class.
@@ -240,18 +236,18 @@ REGULAR = 0.25
 Places: TypeAlias = dict[str, tuple[float, float]]
 
 
-@immutable
 class Joints:
-    """The joints of an inversion by name, each the pair of its links: O is the crank's on the frame, A the first of its others."""
+    """The joints of an inversion by name, each the pair of its links: O is the crank's on the frame, A the first of its others.
 
-    inversion: Inversion
-    crank: int
+    `links` are the names of each link's joints, `fixed` those on the frame, `on_crank` those of the crank that move, `moving_links` those
+    of the links that are neither. `free` joints are those whose places the other links determine; they come first among all the `names`.
+    `distances` are those that the links keep, by the places of their ends among the names: as many as determine the free joints.
+    """
 
-    @cached_property
-    def links(self) -> Mapping[int, tuple[str, ...]]:
-        """The names of each link's joints."""
-        form, frame, crank = self.inversion.chain.form, self.inversion.frame - 1, self.crank - 1
-        names = iter(JOINTS)
+    def __init__(self, inversion: Inversion, crank: int) -> None:
+        self.inversion, self.crank = inversion, crank
+        form, frame, crank = inversion.chain.form, inversion.frame - 1, crank - 1
+        letters = iter(JOINTS)
         found: dict[int, list[str]] = {link: [] for link in range(len(form))}
         order = [crank]
         named: set[frozenset[int]] = set()
@@ -260,51 +256,27 @@ class Joints:
                 if frozenset((link, other)) in named:
                     continue
                 named.add(frozenset((link, other)))
-                name = "O" if {link, other} == {frame, crank} else next(names)
+                name = "O" if {link, other} == {frame, crank} else next(letters)
                 found[link].append(name)
                 found[other].append(name)
                 order += [other] if other != frame and other not in order else []
-        return {link + 1: tuple(each) for link, each in found.items()}
-
-    @property
-    def fixed(self) -> tuple[str, ...]:
-        """Those on the frame."""
-        return self.links[self.inversion.frame]
-
-    @property
-    def on_crank(self) -> tuple[str, ...]:
-        """Those of the crank that move."""
-        return tuple(each for each in self.links[self.crank] if each != "O")
-
-    @property
-    def moving_links(self) -> Mapping[int, tuple[str, ...]]:
-        """The joints of the links that are neither the frame nor the crank."""
-        return {link: each for link, each in self.links.items() if link not in (self.inversion.frame, self.crank)}
-
-    @cached_property
-    def free(self) -> tuple[str, ...]:
-        """Those whose places the other links determine."""
+        self.links = {link + 1: tuple(each) for link, each in found.items()}
+        self.fixed = self.links[inversion.frame]
+        self.on_crank = tuple(each for each in self.links[self.crank] if each != "O")
+        self.moving_links = {link: each for link, each in self.links.items() if link not in (inversion.frame, self.crank)}
         every = dict.fromkeys(name for each in self.moving_links.values() for name in each)
-        return tuple(name for name in every if name not in self.fixed and name not in self.on_crank)
-
-    @cached_property
-    def joint_names(self) -> tuple[str, ...]:
-        """All, the free ones first."""
-        return (*self.free, *self.fixed, *self.on_crank)
-
-    @cached_property
-    def distances(self) -> tuple[tuple[int, int], ...]:
-        """The distances that the links keep, by the places of their ends among the names: as many as determine the free joints."""
-        place = {name: number for number, name in enumerate(self.joint_names)}
+        self.free = tuple(name for name in every if name not in self.fixed and name not in self.on_crank)
+        self.names = (*self.free, *self.fixed, *self.on_crank)
+        place = {name: number for number, name in enumerate(self.names)}
         pairs = [(one, other) for each in self.moving_links.values() for k, one in enumerate(each) for other in each[k + 1 :] if k < 2]
-        return tuple((place[one], place[other]) for one, other in pairs)
+        self.distances = tuple((place[one], place[other]) for one, other in pairs)
 
     def distance_slopes(self, places: FloatArray) -> FloatArray:
         """Return the derivatives of the distances by the free joints at places (..., joints, 2), shape (..., distances, 2 free)."""
         a, b = np.array(self.distances).T
         ways = places[..., a, :] - places[..., b, :]
         ways = ways / np.linalg.norm(ways, axis=-1, keepdims=True)
-        found = np.zeros((*places.shape[:-2], len(a), len(self.joint_names), 2))
+        found = np.zeros((*places.shape[:-2], len(a), len(self.names), 2))
         rows = np.arange(len(a))
         found[..., rows, a, :] += ways
         found[..., rows, b, :] -= ways
@@ -313,7 +285,7 @@ class Joints:
 
 def drawing(joints: Joints) -> Places:
     """Return places of all joints [m] from which the crank turns fully, far from any dead point: the best of many at random."""
-    names = joints.joint_names
+    names = joints.names
     every = np.random.default_rng(0).uniform(0.0, 1.0, (DRAWINGS, len(names), 2))
     O = names.index("O")
     every -= every[:, [O]]

@@ -8,15 +8,14 @@ curves J. R. McGarva, G. Mullineux, Harmonic representation of closed curves, Ap
 
 from __future__ import annotations
 
-from typing import Self, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import ensure
 from ..frozen import immutable
-from ..plan import Mask
-from ..program import FloatArray
+from ..vectors import FloatArray, Mask
 
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 
@@ -31,41 +30,30 @@ SAME_POINT = 1e-9
 """Of a curve's size: points that are nearer to one another are one."""
 
 
-@immutable
 class ClosedCurves:
-    """Closed curves by arc length: `middle` (m,) and `descriptors` (m, 2 h) of k = 1 ... h, -1 ... -h, complex numbers [m].
+    """Closed curves by arc length, from samples (m, n) at equal steps of a parameter that comes round after n, such as a crank's angle.
+
+    They have a `middle` (m,) and `descriptors` (m, 2 h) of k = 1 ... h, -1 ... -h, complex numbers [m].
 
     `along` (m, n) is the part of the way, from 0 to 1, at which each sample lies; `size` (m,) the root mean square distance from the
     middle [m].
     """
 
-    middle: ComplexArray
-    descriptors: ComplexArray
-    along: FloatArray
-    size: FloatArray
-
-    @classmethod
-    def of(cls, samples: ComplexArray, harmonics: int = HARMONICS) -> Self:
-        """Return curves from samples (m, n), at equal steps of a parameter that comes round after n of them, such as a crank."""
-        n = samples.shape[1]
-        weight, along = ways(samples)
-        weight /= n
-        middle = np.sum(samples * weight, axis=1)
-        part = (samples - middle[:, None]) * weight
-        size = np.sqrt(np.sum(np.abs(samples - middle[:, None]) ** 2 * weight, axis=1))
-        wave = np.exp(-2j * np.pi * along)
-        descriptors = np.empty((len(samples), 2 * harmonics), complex)
+    def __init__(self, samples: ComplexArray, harmonics: int = HARMONICS) -> None:
+        weight, self.along = ways(samples)
+        weight /= samples.shape[1]
+        self.middle: ComplexArray = np.sum(samples * weight, axis=1)
+        part = (samples - self.middle[:, None]) * weight
+        self.size: FloatArray = np.sqrt(np.sum(np.abs(samples - self.middle[:, None]) ** 2 * weight, axis=1))
+        wave = np.exp(-2j * np.pi * self.along)
+        self.harmonics = harmonics
+        """How many descriptors there are of each sign."""
+        self.descriptors: ComplexArray = np.empty((len(samples), 2 * harmonics), complex)
         for first, factor in ((0, wave), (harmonics, np.conj(wave))):
             product = part * factor
             for k in range(harmonics):
-                descriptors[:, first + k] = product.sum(axis=1)
+                self.descriptors[:, first + k] = product.sum(axis=1)
                 product *= factor
-        return cls(middle, descriptors, along, size)
-
-    @property
-    def harmonics(self) -> int:
-        """How many descriptors there are of each sign."""
-        return int(self.descriptors.shape[1] // 2)
 
     @property
     def amplitudes(self) -> FloatArray:
@@ -200,6 +188,6 @@ def drawn_curve(points: FloatArray) -> tuple[ClosedCurves, FloatArray]:
     values[-1] = values[0]
     count = max(SAMPLES, 4 * len(knots))
     spline = CubicSpline(passed[knots], np.stack([values.real, values.imag], axis=1), bc_type="periodic")
-    curve = ClosedCurves.of((spline(np.arange(count) / count) @ [1.0, 1.0j])[None])
+    curve = ClosedCurves((spline(np.arange(count) / count) @ [1.0, 1.0j])[None])
     along = np.interp(passed[:-1], np.linspace(0.0, 1.0, count + 1), np.append(curve.along[0], 1.0))
     return curve, along

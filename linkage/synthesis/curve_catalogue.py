@@ -65,22 +65,14 @@ SAME_PLACE = 1e-9
 WAY = RunOptions("numpy")
 
 
-@immutable
 class CurveClass:
     """A machine whose first two fixed points stand 1 m apart, with its variables: lengths, further fixed points, angles.
 
-    What its places do not hang on stays as it is, and the angles that are held. `fixed` are the two points.
+    What its places do not hang on stays as it is, and the angles that are held. `fixed` are the two points. DefinitionError where no crank
+    turns all of it.
     """
 
-    machine: Mechanism
-    of: str
-    stroke: str
-    variables: tuple[Varied, ...]
-    fixed: Mapping[str, float]
-
-    @classmethod
-    def for_point(cls, machine: Mechanism, of: Any, hold: object = ()) -> CurveClass:
-        """Return the class of a machine and a point; DefinitionError where no crank turns all of it."""
+    def __init__(self, machine: Mechanism, of: Any, hold: object = ()) -> None:
         check_one_design(machine)
         check_point(machine, of)
         title, plan, entries = machine.plan.title, machine.plan, machine.plan.table.entries
@@ -104,12 +96,8 @@ class CurveClass:
             if name in used - {*fixed, *held} and kind in ranges and (kind != "coordinate" or name[:-2] in points):
                 variables.append(Varied(name, name, 1.0, *ranges[kind], None, ""))
         ensure(variables, f"{title}: nothing that {of} hangs on can vary; give its links lengths as numbers.")
-        return cls(machine.replaced(**fixed), of, stroke, tuple(variables), fixed)
-
-    @property
-    def class_title(self) -> str:
-        """The machine's title and the point."""
-        return f"{self.machine.plan.title}, {self.of}"
+        self.machine, self.of, self.stroke, self.fixed = machine.replaced(**fixed), of, stroke, fixed
+        self.variables, self.class_title = tuple(variables), f"{title}, {of}"
 
     def running_designs(self, count: int, seed: int, executor: Executor | None, tell: Progress) -> tuple[FloatArray, FloatArray, int]:
         """Return values (count, k) and amplitudes (count, 2 h) of designs that run their whole turn, and how many were looked at.
@@ -205,7 +193,7 @@ class CurveMeasure:
             paths, runs = self.paths(machine.plan, part, poses, len(rows))
             rows, paths = rows[runs], paths[runs]
         table = np.zeros((count, 2 * HARMONICS))
-        table[rows] = ClosedCurves.of(paths, HARMONICS).amplitudes
+        table[rows] = ClosedCurves(paths, HARMONICS).amplitudes
         return {"runs": table.any(axis=1)} | dict(zip(amplitude_names(), table.T, strict=True))
 
     def paths(self, plan: Plan, designs: Mapping[str, Any], poses: int, count: int) -> tuple[ComplexArray, Mask]:
@@ -397,7 +385,7 @@ class CurveCatalogue(Shown):
         for poses, many in ((WHOLE, len(values)), (CLOSELY, CLOSEST)):  # of the nearest once more, at more poses
             best = order[:many]
             paths, _ = fit.swept(values[best], poses)  # ranges from 0 to 1: values are parts of them
-            laid = laid_onto(ClosedCurves.of(as_complex(paths)), curve, ANY_SIZE, **free)
+            laid = laid_onto(ClosedCurves(as_complex(paths)), curve, ANY_SIZE, **free)
             factor[best], by[best], distance[best] = laid.factor, laid.by, np.sqrt(laid.error) / curve.size
             order[:many] = best[np.argsort(distance[best], kind="stable")]
         return numbers[order], likeness.applied(fit, values, factor, by)[order], distance[order]
@@ -470,7 +458,7 @@ def curve_catalogue(
     StudyError
         No design runs its whole turn.
     """
-    kind = CurveClass.for_point(machine, of, hold)
+    kind = CurveClass(machine, of, hold)
     if count is not None and not (is_whole(count) and 1 <= count <= MOST_CURVES):
         raise DefinitionError(f"{kind.class_title}: count={cited(count)}: a whole number of curves is expected, up to {MOST_CURVES}.")
     require_whole(f"{kind.class_title}: seed", seed, "a whole number is expected, at least 0", least=0)

@@ -11,12 +11,10 @@ from ..language import said
 from ..mechanism import Mechanism
 from ..mobility import FourBar
 from ..motion import stroke_display_unit
-from ..plan import Mask
-from ..program import FloatArray
 from ..steps import Step
 from ..study.variants import ENDING, on_sides
 from ..units import deg, show
-from ..vectors import Side
+from ..vectors import FloatArray, Mask, Side
 from .fit import Fit, goes_one_way
 
 RUN = 721

@@ -26,14 +26,13 @@ from ..mobility import FourBar, grashof
 from ..motion import Featured, Motion
 from ..numeric.descent import refined
 from ..plugins import Plugins
-from ..program import FloatArray
 from ..quantities import Dimension, Member, Stroke, angle, ref
 from ..shown import HasSentence, Shown, ShownList
 from ..steps import Guide
 from ..study.checks import check_one_design
 from ..study.variants import class_like, variant
 from ..units import show
-from ..vectors import LEFT, RIGHT, Side
+from ..vectors import LEFT, RIGHT, FloatArray, Side
 from .defects import TOLD, point_ranges, points_on_circuits
 from .fit import TURN, goes_one_way, one_way_round, within_turn
 from .tasks import check_point, check_radians, table_of

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from ..checks import require
 from ..errors import DefinitionError, StudyError, ensure
 from ..language import said
-from ..numeric.descent import refined
+from ..numeric.descent import refined, without_repeats
 from ..program import FloatArray
 from ..units import require_measure
 from .exact import ComplexArray, CouplerTask, ExactMachine, ExactSynthesis, Pivoted, exact_synthesis, is_without_links, judged_machine
@@ -263,11 +263,11 @@ def is_finite(z: ComplexArray) -> npt.NDArray[np.bool_]:
 
 def distinct(z: ComplexArray) -> ComplexArray:
     """Return solutions (m, k), each once."""
-    kept: list[int] = []
-    for place in range(len(z)):
-        if all(abs(z[place] - z[each]).max() > SAME * abs(z[place]).max() for each in kept):
-            kept.append(place)
-    return z[kept]
+
+    def is_same(known: int, place: int) -> bool:
+        return bool(abs(z[place] - z[known]).max() <= SAME * abs(z[place]).max())
+
+    return z[without_repeats(np.arange(len(z)), is_same, len(z))]
 
 
 def solutions_of(p: ComplexArray, q: ComplexArray) -> ComplexArray:

@@ -24,21 +24,8 @@ from ..numeric.descent import refined
 from ..program import FloatArray
 from ..shown import HasSentence, Shown
 from ..units import show
-from .exact import (
-    TURN,
-    ComplexArray,
-    CouplerTask,
-    DrivenPiece,
-    ExactMachine,
-    ExactSynthesis,
-    FoundMachines,
-    Pivoted,
-    angles_of_reach,
-    exact_synthesis,
-    is_without_links,
-    judged_machine,
-    real_roots,
-)
+from . import exact as algebra
+from .exact import TURN, ComplexArray, CouplerTask, DrivenPiece, ExactMachine, ExactSynthesis, FoundMachines, Pivoted, is_without_links
 from .tasks import PoseTask, check_radians, table_of
 
 LOOP = 2880
@@ -190,7 +177,7 @@ class Burmester(FoundMachines[ExactMachine]):
             if not ((one.slides and other.slides) or is_without_links(one.pivoted, other.pivoted, self.body.size))
         ]
         title = said("Four-bars and slider-cranks through {count} poses", count=len(self.poses))
-        return exact_synthesis(title, found, len(found))
+        return algebra.exact_synthesis(title, found, len(found))
 
     @property
     def solutions(self) -> tuple[ExactMachine, ...]:
@@ -249,26 +236,16 @@ class Burmester(FoundMachines[ExactMachine]):
 # -- the body and its poses -----------------------------------------------------------------------------------
 
 
-@immutable
 class PosedBody:
-    """A body in its poses (n, 3), as complex numbers: z its places, `turned` its directions from those of the first pose."""
+    """A body in its poses (n, 3), as complex numbers: z its places, `turned` its directions from those of the first pose.
 
-    rows: FloatArray
+    `size` is the extent of the places [m]; of poses about one place, 1.
+    """
 
-    @property
-    def z(self) -> ComplexArray:
-        """The places (n,)."""
-        return np.asarray(self.rows[:, :2] @ np.array([1.0, 1.0j]))
-
-    @property
-    def turned(self) -> ComplexArray:
-        """The directions from that of the first pose (n,), of length one."""
-        return np.asarray(np.exp(1j * (self.rows[:, 2] - self.rows[0, 2])))
-
-    @property
-    def size(self) -> float:
-        """The extent of the places [m]; of poses about one place, 1."""
-        return float(abs(self.z - self.z.mean()).max()) or 1.0
+    def __init__(self, rows: FloatArray) -> None:
+        self.rows, self.z = rows, np.asarray(rows[:, :2] @ np.array([1.0, 1.0j]))
+        self.turned: ComplexArray = np.exp(1j * (rows[:, 2] - rows[0, 2]))
+        self.size = float(abs(self.z - self.z.mean()).max()) or 1.0
 
     def places_of(self, point: complex | ComplexArray) -> ComplexArray:
         """Return the places (n,) of the body's point that is at a place in the first pose; (m, n) of places (m, 1)."""
@@ -306,7 +283,7 @@ class PosedBody:
         fixed = -minors.sum()
         if abs(fixed) > NO_MINOR * one:
             low, high = ((far**2 - abs(fixed) ** 2 - one**2) / (2.0 * abs(fixed) * one) for far in (abs(two - three), two + three))
-            ways = angles_of_reach(low, high, float(np.angle(fixed) - np.angle(minors[0])))
+            ways = algebra.angles_of_reach(low, high, float(np.angle(fixed) - np.angle(minors[0])))
         else:
             ways = [DrivenPiece(0.0, TURN, True)]  # a triangle, in any direction
         every = [CurveLoop(self, seen, way, side) for way in ways for side in ((1.0, -1.0) if way.fully else (1.0,))]
@@ -398,7 +375,7 @@ def conics_meet(conics: Sequence[FloatArray]) -> list[FloatArray]:
     ac, ab = poly.polysub(poly.polymul(a, f), poly.polymul(d, c)), poly.polysub(poly.polymul(a, e), poly.polymul(d, b))
     bc = poly.polysub(poly.polymul(b, f), poly.polymul(e, c))
     found = []
-    for x in real_roots(poly.polysub(poly.polymul(ac, ac), poly.polymul(ab, bc))):
+    for x in algebra.real_roots(poly.polysub(poly.polymul(ac, ac), poly.polymul(ab, bc))):
         y = -poly.polyval(x, ac) / poly.polyval(x, ab)
         found.append(turn @ np.array([x, y, 1.0]))
     return found
@@ -543,4 +520,4 @@ def lies_within(places: ComplexArray, region: Region) -> npt.NDArray[np.bool_]:
 
 def machine_of_links(body: PosedBody, one: GuidingLink, other: GuidingLink, *, in_order: bool) -> ExactMachine:
     """Return the machine of two links, judged."""
-    return judged_machine(one.pivoted, other.pivoted, CouplerTask(body.z, body=body.rows[:, 2], in_order=in_order))
+    return algebra.judged_machine(one.pivoted, other.pivoted, CouplerTask(body.z, body=body.rows[:, 2], in_order=in_order))

@@ -13,10 +13,9 @@ from itertools import combinations
 import numpy as np
 
 from ..frozen import immutable
-from ..numeric.line import Index
 from ..plan import plan_measure
-from ..program import FloatArray
 from ..study.designs import DesignValues
+from ..vectors import FloatArray, Index
 from .closed_curves import ClosedCurves, ComplexArray, drawn_curve, laid_onto
 from .fit import TURN, Fit
 
@@ -190,7 +189,7 @@ def laid_designs(fit: Fit, likeness: Likeness, unit: FloatArray, timed: object, 
     elif timed is False and fit.rows.is_closed and runs and fit.timing.turn:
         values, _ = fit.swept(unit, poses_of(fit, timed))
         onto, places = drawn_curve(fit.rows.wanted[:2].T)  # point lies on point at the same part of the way
-        curves = ClosedCurves.of(as_complex(values))
+        curves = ClosedCurves(as_complex(values))
         free = {"shift": likeness.shift, "turn": likeness.turn, "scale": likeness.scale}
         laid_on = laid_onto(curves, onto, likeness.sizes(fit, unit), **free)
         strokes = fit.timing.start + fit.timing.span * curves.shares_of_turn(laid_on.along(places))

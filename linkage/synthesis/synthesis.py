@@ -19,8 +19,6 @@ from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
 from ..motion.measures import Measure, measure_of
 from ..motion.motion_verdicts import transmissions
-from ..plan import Mask
-from ..program import FloatArray
 from ..shown import HasSentence, Shown, text_columns
 from ..study.checks import check_one_design, unit_of
 from ..study.optimise import check_counts
@@ -30,7 +28,7 @@ from ..study.space import size_of_machine
 from ..study.survey import check_progress, progress_told
 from ..study.variants import ENDING, is_side
 from ..units import deg, display_unit, factor, mm, show, shown_in
-from ..vectors import Side
+from ..vectors import FloatArray, Mask, Side
 from .defects import TOLD, change_point_words, in_order, order_words
 from .exact import REGISTERED, FoundMachines
 from .fit import Fit

@@ -17,6 +17,7 @@ from ..language import said
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
 from ..motion.measures import Constraint, FixedNumber, Measure, conditions_of, in_case, mean_in_cases, measure_of, reachable, words_of
+from ..numeric.descent import without_repeats
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
 from ..study.box import unit_points
@@ -30,27 +31,12 @@ from ..study.space import FAR, Space, size_of_machine
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from ..study.variants import fitted_rows
 from ..units import show
-from . import task_work
+from . import synthesis, task_work
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
 from .defects import NEAR_CHANGE_POINT, branch_words, circuit_words, in_order, order_words
 from .fit import Fit, Timing
 from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
-from .synthesis import (
-    ALIKE,
-    MISSES,
-    NEAR,
-    Miss,
-    Synthesis,
-    SynthesisedMachine,
-    beyond_travel_words,
-    exact_error,
-    is_one_design,
-    machine_words,
-    misses_of,
-    poorest_transmission,
-    synthesised_classes,
-    told_error,
-)
+from .synthesis import ALIKE, MISSES, NEAR, Miss, Synthesis, SynthesisedMachine, exact_error, is_one_design, misses_of, told_error
 from .task_work import LONG, NUMBERS, RACE, Combination, FitWork, Stages, Through
 from .tasks import FunctionTask, PathTask, PoseTask, Task, TaskRows, check_radians, moving_stroke, task_named_in, task_of, timed_as
 
@@ -173,7 +159,7 @@ def synthesise(
     if machine is None or isinstance(machine, (list, tuple)):
         by_class = {"vary": vary, "subject_to": subject_to, "regions": regions, "rank": rank, "over": over}
         options = dict(timed=timed, case=case, starts=starts, seed=seed, limit=limit, executor=executor, folder=folder)
-        return synthesised_classes(synthesise, machine, wanted, by_class, progress, options)
+        return synthesis.synthesised_classes(synthesise, machine, wanted, by_class, progress, options)
     check_one_design(machine)
     title = machine.plan.title
     catalogued = starts == "catalogue" or isinstance(starts, CurveCatalogue)
@@ -344,7 +330,9 @@ class TaskSearch:
 
     def work(self, piece: int, measure: Callable[..., dict[str, Array]], **options: Any) -> FitWork:
         """Return a stage's work on designs, a piece at a time, by a function of a fit and the rows."""
-        return FitWork(self.problem, self.rows, self.timing, self.task.at, piece, partial(measure, **options))
+        shared, facts = (self.problem, self.rows, self.timing, self.task.at), f"{measure.__name__} {piece} {options}"
+        call, what = partial(measure, **options), "a condition or the mechanism's class"
+        return FitWork(self.problem.machine, call, piece, "numpy", what, *shared, facts)
 
     def fit(self, combination: Combination) -> Fit:
         """Return the fit of a combination of choices."""
@@ -450,18 +438,18 @@ class TaskSearch:
     def about_best(self, own: Sequence[Ends], wave: int) -> Starts:
         """Return starts about the best answers of a combination that stand apart."""
         fit, random = own[0].fit, np.random.default_rng([self.seed, wave])
-        ranked = sorted(
-            ((float(each.error[k]), each.at[k], each.base[k]) for each in own for k in np.flatnonzero(self.good_in_order(each))),
-            key=lambda one: one[0],
+        good = [self.good_in_order(each) for each in own]
+        at, base, error = (
+            np.concatenate([getattr(each, name)[mask] for each, mask in zip(own, good, strict=True)]) for name in ("at", "base", "error")
         )
-        chosen: list[tuple[FloatArray, FloatArray]] = []
-        for _, at, base in ranked:
-            if len(chosen) < HOPPED and not any(np.abs(at[: fit.n] - other[: fit.n]).max(initial=0.0) < NEAR for other, _ in chosen):
-                chosen.append((at, base))
-        at, base = (np.array([each[part] for each in chosen for _ in range(EACH_HOP)]) for part in (0, 1))
-        at = at.reshape(-1, fit.n + fit.width)
-        at[:, : fit.n] = np.clip(at[:, : fit.n] + HOP * random.standard_normal((len(at), fit.n)), 0.0, 1.0)
-        return Starts(fit, at, base.reshape(len(at), -1), 0)
+
+        def is_near(known: int, other: int) -> bool:
+            return bool(np.abs(at[other, : fit.n] - at[known, : fit.n]).max(initial=0.0) < NEAR)
+
+        rows = np.repeat(np.array(without_repeats(np.argsort(error, kind="stable"), is_near, HOPPED), int), EACH_HOP)
+        begin = at[rows]
+        begin[:, : fit.n] = np.clip(begin[:, : fit.n] + HOP * random.standard_normal((len(rows), fit.n)), 0.0, 1.0)
+        return Starts(fit, begin, base[rows])
 
     def that_run_first(self, first: Starts, ends: Ends) -> Starts:
         """Return the starts that run over the whole stroke, in place of searches whose results do not run.
@@ -576,7 +564,7 @@ class TaskSearch:
     def why_not(self, machine: Mechanism, ends: Ends, k: int) -> str:
         """Return why a design is no answer, in words; "" for one that is, by the judge."""
         fit, at, base = ends.fit, ends.at[k], ends.base[k]
-        told = circuit_words(fit, at, base) or beyond_travel_words(fit, at, base)
+        told = circuit_words(fit, at, base) or synthesis.beyond_travel_words(fit, at, base)
         if told:
             return told
         if self.ordered and not in_order(fit, at, base):
@@ -595,9 +583,9 @@ class TaskSearch:
         """Return a design with all that is said of it."""
         fit, at, base = ends.fit, ends.at[k], ends.base[k]
         strokes, reached, far = misses_of(fit, at, base)
-        angle, joint = poorest_transmission(machine, self.over)
+        angle, joint = synthesis.poorest_transmission(machine, self.over)
         ranked = max((float(each.value) for each in machine.judge(self.over).answers([*self.ranks])), default=float("nan"))
-        words = machine_words(fit, machine, at, base, far, angle, joint)
+        words = synthesis.machine_words(fit, machine, at, base, far, angle, joint)
         error, worst = float(np.sum(far**2)), int(np.argmax(far))
         return SynthesisedMachine(
             machine, error, float(np.sqrt(np.mean(far**2))), float(far[worst]), worst + 1, frozen(strokes), frozen(reached), angle, ranked,

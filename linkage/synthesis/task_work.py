@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
-from functools import partial
 from itertools import groupby
-from typing import ClassVar, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
 from ..errors import LinkageError
 from ..frozen import immutable
-from ..mechanism import Mechanism
 from ..numeric.descent import BEGIN
 from ..program import FloatArray
 from ..study.checkpoint import Checkpoint
-from ..study.designs import Array, Designs, DesignValues
+from ..study.designs import Array, Designs, DesignValues, Task
 from ..study.problem import Problem
 from ..study.solver import Local
 from ..study.survey import Executor, Progress, SurveyRun
@@ -55,30 +53,18 @@ def joined_rows(parts: Sequence[Part]) -> Designs:
 
 
 @immutable
-class FitWork:
+class FitWork(Task):
     """Work on designs by the fit of their combination, `piece` at a time; the result of each design does not depend on the worker.
 
-    `measure` with its keywords returns the results of designs of one combination, arrays (m, ...) by name.
+    `measure` returns the results of designs of one combination, arrays (m, ...) by name, from the fit and their rows. The `facts` identify
+    the work, beside the task and its designs.
     """
 
     problem: Problem
     rows: TaskRows
     timing: Timing
     known: FloatArray | None
-    piece: int
-    measure: partial[dict[str, Array]]
-    backend: ClassVar[str] = "numpy"
-    what: ClassVar[str] = "a condition or the mechanism's class"
-
-    @property
-    def machine(self) -> Mechanism:
-        """The machine."""
-        return self.problem.machine
-
-    @property
-    def facts(self) -> str:
-        """The facts that identify the work, beside the task and its designs, as text."""
-        return f"{self.measure.func.__name__} {self.piece} {self.measure.keywords}"
+    facts: str
 
     @property
     def empty(self) -> dict[str, Array]:
@@ -98,7 +84,7 @@ class FitWork:
                 fit = Fit(problem, self.rows, self.timing, combination, self.known)
                 own = {name: column[begin:first] for name, column in rows.items() if name != "combination"}
                 looked = np.zeros(first - begin)
-                parts.append(self.measure(fit, own) | {"looked": looked})
+                parts.append({**self.measure(fit, own), "looked": looked})
                 looked[0] = problem.count.designs
             found.append({name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
         return found
@@ -173,21 +159,17 @@ class Stages:
 
     def carried_out(self, name: str, work: FitWork, parts: Sequence[Part], *, told: int = 0) -> list[dict[str, Array]]:
         """Return the results of the designs of each part, arrays (m, ...) by name; in the progress it counts as so many designs."""
-        rows = joined_rows(parts)
-        found = self._found(name, work, rows, told) if rows.count else work.empty
-        ends = np.cumsum([len(next(iter(columns.values()))) for _, columns in parts])
-        return [{key: column[begin:end] for key, column in found.items()} for begin, end in zip([0, *ends], ends, strict=False)]
+        rows, found = joined_rows(parts), work.empty
 
-    def _found(self, name: str, work: FitWork, rows: Designs, told: int) -> dict[str, Array]:
         def tell(done: int, count: int) -> None:
             self.tell(self.before + told * done // count, self.total)
 
-        checkpoint = None
-        if self.checkpoint is not None:
-            facts = f"{name} {work.facts} {rows.count} {rows.digests()}".encode()
-            checkpoint = self.checkpoint.stage(name, facts)
-        run = SurveyRun(work, rows, self.executor, checkpoint, tell)
-        run.go()
-        self.before += told
-        work.problem.count.designs += int(run.values["looked"].sum())
-        return run.values
+        if rows.count:
+            facts, checkpoint = f"{name} {work.facts} {rows.count} {rows.digests()}".encode(), self.checkpoint
+            run = SurveyRun(work, rows, self.executor, None if checkpoint is None else checkpoint.stage(name, facts), tell)
+            run.go()
+            self.before += told
+            work.problem.count.designs += int(run.values["looked"].sum())
+            found = run.values
+        ends = np.cumsum([len(next(iter(columns.values()))) for _, columns in parts])
+        return [{key: column[begin:end] for key, column in found.items()} for begin, end in zip([0, *ends], ends, strict=False)]

@@ -37,8 +37,7 @@ from linkage import (
 from linkage.cli import main
 from linkage.exports.calculation import Calculation, live_results
 from linkage.exports.drawing import Circle, Lettering, Measured, pose_parts
-from linkage.exports.formula_text import cell_names, formula
-from linkage.exports.workbook import from_si, to_si
+from linkage.exports.workbook import cell_names, formula, from_si, to_si
 from linkage.pictures.labels import half_of
 from linkage.pictures.layout import props
 from linkage.pictures.scene import Scene

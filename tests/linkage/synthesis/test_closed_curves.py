@@ -37,7 +37,7 @@ def test_descriptors_are_the_integrals_along_the_way():
     speed = np.abs(np.gradient(z, u, edge_order=2))
     way = cumulative_simpson(speed, x=u, initial=0)
     s = way / way[-1]
-    found = ClosedCurves.of(z[:-1][::1000][None], 4)
+    found = ClosedCurves(z[:-1][::1000][None], 4)
     for place, k in enumerate((1, 2, 3, 4, -1, -2, -3, -4)):
         assert_allclose(found.descriptors[0, place], simpson(z * np.exp(-2j * np.pi * k * s) * speed / way[-1], x=u), rtol=0, atol=1e-8)
     assert_allclose(found.middle[0], simpson(z * speed / way[-1], x=u), rtol=0, atol=1e-8)
@@ -48,8 +48,8 @@ def test_descriptors_are_the_integrals_along_the_way():
 @pytest.mark.parametrize("backward", [False, True])
 def test_amplitudes_stay_whatever_place_turn_size_start_and_sense(backward):
     z = curve(128)
-    first = ClosedCurves.of(z[None]).amplitudes[0]
-    other = ClosedCurves.of(moved(z, 3.0 * np.exp(1.1j), 2.0 - 1.0j, 37, backward)[None]).amplitudes[0]
+    first = ClosedCurves(z[None]).amplitudes[0]
+    other = ClosedCurves(moved(z, 3.0 * np.exp(1.1j), 2.0 - 1.0j, 37, backward)[None]).amplitudes[0]
     swapped = np.concatenate(np.split(other, 2)[::-1])
     assert_allclose(swapped if backward else other, first, rtol=0, atol=1e-10)
     assert np.abs((other if backward else swapped) - first).max() > 1e-2
@@ -59,7 +59,7 @@ def test_amplitudes_stay_whatever_place_turn_size_start_and_sense(backward):
 def test_a_curve_is_laid_onto_its_own_image(backward):
     factor, by = 2.5 * np.exp(-2.0j), 0.3 + 0.7j
     onto, along = drawn_curve(pairs(moved(curve(300, 0.7), factor, by, 77, backward)))
-    curves = ClosedCurves.of(curve(96)[None])
+    curves = ClosedCurves(curve(96)[None])
     laid = laid_onto(curves, onto, FREE)
     assert laid.backward[0] == backward
     assert np.sqrt(laid.error[0]) / onto.size[0] < 1e-7
@@ -72,7 +72,7 @@ def test_a_curve_is_laid_onto_its_own_image(backward):
 @pytest.mark.parametrize(("free", "factor", "by"), [("shift", 1.0, 0.2), ("turn", np.exp(0.5j), 0.0), ("scale", 1.7, 0.0)])
 def test_what_is_not_free_is_not_used(free, factor, by):
     onto, _ = drawn_curve(pairs(factor * curve(300) + by))
-    curves = ClosedCurves.of(curve(96)[None])
+    curves = ClosedCurves(curve(96)[None])
     only = {name: name == free for name in ("shift", "turn", "scale")}
     laid = laid_onto(curves, onto, FREE, **only)
     assert_allclose([laid.factor[0], laid.by[0]], [factor, by], rtol=0, atol=1e-6)
@@ -82,7 +82,7 @@ def test_what_is_not_free_is_not_used(free, factor, by):
 
 def test_a_size_stays_within_its_limits():
     onto, _ = drawn_curve(pairs(3.0 * curve(300)))
-    laid = laid_onto(ClosedCurves.of(curve(96)[None]), onto, np.array([[0.5], [2.0]]))
+    laid = laid_onto(ClosedCurves(curve(96)[None]), onto, np.array([[0.5], [2.0]]))
     assert_allclose(np.abs(laid.factor), 2.0, rtol=1e-12)
 
 

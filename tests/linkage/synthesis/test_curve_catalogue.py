@@ -109,7 +109,7 @@ def test_a_curve_finds_itself_whatever_place_turn_size_start_and_sense(four_bars
 
 def test_amplitudes_apart_keep_curves_apart(four_bars):
     """No shift, turn, size and start brings two curves nearer than their amplitudes are."""
-    curves = ClosedCurves.of(np.stack([turned(four_bars.design(number), "P", 128) for number in range(0, COUNT, COUNT // 50)]))
+    curves = ClosedCurves(np.stack([turned(four_bars.design(number), "P", 128) for number in range(0, COUNT, COUNT // 50)]))
     for number in range(0, COUNT, COUNT // 5):
         onto, _ = drawn_curve(pairs(turned(four_bars.design(number), "P", 360)))
         laid = laid_onto(curves, onto, np.array([[1e-9], [1e9]]))
@@ -123,7 +123,7 @@ def test_the_nearest_of_all_is_found(four_bars):
     """Against every curve of it laid on."""
     random = np.random.default_rng(2)
     u = np.arange(200) * 2 * pi / 200
-    curves = ClosedCurves.of(np.stack([turned(four_bars.design(number), "P", 96) for number in range(len(four_bars))]))
+    curves = ClosedCurves(np.stack([turned(four_bars.design(number), "P", 96) for number in range(len(four_bars))]))
     for _ in range(3):
         drawn = np.exp(1j * u) + sum(complex(*random.normal(size=2)) * 0.3 / k * np.exp(1j * k * u) for k in (-1, 2, -2, 3))
         onto, _ = drawn_curve(pairs(drawn))

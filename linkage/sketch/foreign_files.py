@@ -1,4 +1,4 @@
-"""The door to files of other programs: which one wrote a file, and its sketch."""
+"""The door to files of other programs: which one wrote a file, and its sketch; and a sketch as the text of such a file."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from ..disk import Place, read
 from ..errors import DefinitionError, FileError, cited, ensure, unknown
 from ..files.source import FILE_BYTES, decoded
 from ..quantities import joined_names
-from .board_json import ADDRESS, read_board
+from .board_json import ADDRESS, board_json, read_board
 from .dxf_layers import read_dxf
 from .found import WORDS, FoundDrive, FoundMachine, JsonTable, printable
-from .linkage_xml import read_linkage_xml
+from .linkage_xml import linkage_xml, read_linkage_xml
 from .machine_sketch import MachineSketch
 from .plus_bodies import ENVELOPE, json_in_address, read_plus_bodies
 from .pmks_plus import SHORT, address_text, read_old_address, read_plus_json, read_short_address
-from .pmks_text import read_pmks_text
-from .points_csv import read_points_csv
+from .pmks_text import pmks_text, read_pmks_text
+from .points_csv import points_csv, read_points_csv
 from .pylinkage_json import read_pylinkage
 
 SUFFIXES = ".csv", ".linkage2", ".txt", ".pmks", ".json", ".dxf"
@@ -206,3 +206,38 @@ def add_drive(found: FoundMachine, kind: str, ends: Sequence[str]) -> None:
         )
     found.drives.append(FoundDrive(kind, (P, Q)))
     found.links = [each for each in found.links if kind != "cylinder" or {*each[1]} != {P, Q}]  # a rod that is drawn becomes the cylinder
+
+
+WRITERS: dict[str, Callable[[MachineSketch], str]] = {
+    ".toml": MachineSketch.to_toml,
+    ".py": MachineSketch.to_python,
+    ".json": board_json,
+    ".csv": points_csv,
+    ".linkage2": linkage_xml,
+    ".txt": pmks_text,
+}
+"""What writes a sketch, by the end of the file's name."""
+
+
+def sketch_text(sketch: MachineSketch, suffix: str) -> str:
+    """Return a sketch as the text of a file.
+
+    Parameters
+    ----------
+    sketch : MachineSketch
+        The sketch.
+    suffix : str
+        .toml or .py for a machine, .json for the board, .csv for a table of points and links, .linkage2 for Linkage, .txt for PMKS.
+
+    Returns
+    -------
+    str
+        The text.
+
+    Raises
+    ------
+    DefinitionError
+        The ending is none of these, or the program has no word for what the sketch holds.
+    """
+    ensure(suffix in WRITERS, f"{suffix or 'no ending'} says no kind of file; a sketch is written as {', '.join(WRITERS)}.")
+    return WRITERS[suffix](sketch)

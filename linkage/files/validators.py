@@ -239,6 +239,11 @@ def written_body(value: object, design: Design, name: str) -> str:
     return " ".join(map(name_of, value.split() if isinstance(value, str) else value if isinstance(value, tuple) else (value,)))
 
 
+def written_carrier(value: Any, design: Design, name: str) -> str | None:
+    """Return the names of the points that carry something in one text; None where nothing does."""
+    return written_body(value, design, name) if value else None
+
+
 def written_pair(value: Any, design: Design, name: str) -> list[object]:
     """Return the numbers of a pair; DefinitionError for lists in it."""
     return [option_said(each) for each in value]
@@ -300,7 +305,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "corner": Kind(coordinates_of),
         "corners": Kind(corners_of, refers=True),
         "centre": Kind(partial(point_or, coordinates_of), refers=True),
-        "carrier": Kind(points_of, written_body),
+        "carrier": Kind(points_of, written_carrier),
         "path": Kind(word_of, refers=True),
         "lengths": Kind(lengths_of, written_lengths),
         "words": Kind(word_list_of),

@@ -6,7 +6,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from linkage import DefinitionError, FileError, driving_force, pin_forces
+from linkage import DefinitionError, FileError, driving_force, export, pin_forces
 from linkage.cli import main
 from linkage.sketch import MachineSketch, SketchDrive, is_foreign, read_sketch, sketch_of, sketch_text
 from tests import shipped
@@ -312,6 +312,14 @@ def test_layers_of_a_drawing_are_named(tmp_path):
             read_sketch(path, layers={**layers, role: ["notes", "Bolt"]})
     with pytest.raises(DefinitionError, match="only a drawing"):
         read_sketch(put(tmp_path, "a.csv", emit.csv(BY_NAME["Rocker"])), layers=layers)
+
+
+def test_a_drawing_of_this_package_is_told_from_a_machine(tmp_path):
+    drawing = export(shipped.MACHINES["four_bar"](), tmp_path / "bar.dxf")
+    with pytest.raises(FileError, match="true-size drawing of this package, whose bodies are outlines; import the machine's own file"):
+        read_sketch(drawing)
+    found = read_sketch(drawing, layers={"links": ["centre_lines"]}, drives=[])
+    assert {*found.points} >= {"O", "A", "B", "C"} and ("A", "B") in [points[:2] for points in found.links.values()]
 
 
 @pytest.mark.parametrize("style", ["lwpolyline", "polyline2d"])

@@ -29,6 +29,8 @@ from ..vectors import FloatArray, Numbers
 AGREE = 1e-9
 """Relative: a formula that is further from the engine is not used."""
 ITERATED = "found by iteration: a number, not a formula"
+UNKNOWN: FloatArray = np.empty(0)
+"""The values of a column that is not worked out yet."""
 BY_ENGINE = "told by the engine: a number, not a formula"
 
 
@@ -118,34 +120,26 @@ class Calculation:
             if symbol not in self._known:
                 meaning = f"the direction that {text} takes, without jumps"
                 numbered = f"({each.number}{'abcdefgh'[place % 8]})"
-                self._column(numbered, str(Text().doprint(word)), meaning, "rad", symbol, explicit(word)[0], turns=0)
+                heading, expr = str(Text().doprint(word)), explicit(word)[0]
+                self._work_out(CalculatedColumn(numbered, heading, meaning, "rad", symbol, expr, UNKNOWN, turns=0))
             rhs = rhs.xreplace({word: symbol})
         number, unit = f"({each.number})", "rad" if each.unit.si == "deg" else each.unit.si
         if not (each.lhs.is_Symbol or (each.lhs.is_Matrix and hasattr(each.lhs, "name"))):
             (left,), (right,) = explicit(each.lhs), explicit(rhs)
             name = f"{each.name} - ({right})" if right != 0 else each.name
-            self._column(number, name, f"{each}: zero where it holds", unit, sympy.Dummy(real=True), left - right, checks=True)
+            meaning, symbol = f"{each}: zero where it holds", sympy.Dummy(real=True)
+            self._work_out(CalculatedColumn(number, name, meaning, unit, symbol, left - right, UNKNOWN, checks=True))
             return
         for symbol, expr in zip(explicit(each.lhs), explicit(rhs), strict=True):
-            self._column(number, column_name(symbol.name), str(each), unit, symbol, expr)
+            self._work_out(CalculatedColumn(number, column_name(symbol.name), str(each), unit, symbol, expr, UNKNOWN))
         self._compare(each)
 
-    def _column(
-        self,
-        number: str,
-        name: str,
-        meaning: str,
-        unit: str,
-        symbol: sympy.Symbol,
-        expr: sympy.Expr,
-        turns: int | None = None,
-        checks: bool = False,
-    ) -> None:
+    def _work_out(self, column: CalculatedColumn) -> None:
+        """Add a column with its values, from those of the columns before it."""
         i = dict(zip(explicit(X_AXIS), (sympy.S.One, sympy.S.Zero), strict=True))
-        exact = expr.xreplace({symbol: value for symbol, value in i.items() if symbol not in self._known})
+        exact = column.expr.xreplace({symbol: value for symbol, value in i.items() if symbol not in self._known})
         values = self._spread(worked_out(exact, self._known))
-        values = values if turns is None else np.unwrap(values)
-        self._add(CalculatedColumn(number, name, meaning, unit, symbol, exact, values, turns, checks))
+        self._add(replace(column, expr=exact, values=values if column.turns is None else np.unwrap(values)))
 
     def _add(self, column: CalculatedColumn) -> None:
         self.columns.append(column)

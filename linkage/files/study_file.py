@@ -15,7 +15,6 @@ import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, replace
-from functools import partial
 from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, TypeAlias, get_type_hints
@@ -79,8 +78,8 @@ class StudyHead:
         for key in data:
             if key not in known:
                 faults.add((str(key),), str(unknown("Key", key, known)))
-        named = data.get("machine")
-        texts: list[Any] = named if several and isinstance(named, list) and named else [named]
+        given = data.get("machine")
+        texts: list[Any] = given if several and isinstance(given, list) and given else [given]
         machines: list[Mechanism] = []
         for text in texts:
             kind = None
@@ -91,10 +90,9 @@ class StudyHead:
                 kind = find(text, base)
             if kind is not None:
                 with faults.at_key("set"):
-                    given = by_dimensions(data.get("set", {}), "set", partial(value_said, kind.plan))
-                    machines.append(kind(**given).replaced(**settings(kind)))
+                    machines.append(kind(**settings_said(kind.plan, data.get("set", {}), faults)).replaced(**settings(kind)))
         faults.check()
-        return cls(data, faults, machines[0], base, dict(zip(texts, machines, strict=True)) if isinstance(named, list) else {})
+        return cls(data, faults, machines[0], base, dict(zip(texts, machines, strict=True)) if isinstance(given, list) else {})
 
     @property
     def plan(self) -> Plan:
@@ -147,6 +145,18 @@ def by_dimensions(given: object, what: str, read: Callable[[str, Any], Any], wor
     """Return the results of reading a table's entries, by the whole names of dimensions; SeveralError, each mistake under its name."""
     given = require_type(what, given, Mapping, f"a table by the names of dimensions is expected, such as [{what}] OB = ..")
     return dict(each_of(by_whole_names(given, words), lambda name, value: (name, read(name, value))))
+
+
+def settings_said(plan: Plan, given: object, faults: Source) -> Keywords:
+    """Return dimensions [SI] by name; each mistake is noted, and the other names are read."""
+    found: Keywords = {}
+
+    def read(name: str, value: object) -> None:
+        with faults.at_key("set", name):
+            found[name] = value_said(plan, name, value)
+
+    by_dimensions(given, "set", read)
+    return found
 
 
 def measure_of_name(plan: Plan, name: str) -> str:

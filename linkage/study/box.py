@@ -9,7 +9,7 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from ..checks import is_listed, require, require_whole, unfit
-from ..errors import DefinitionError, cited, one_word, unknown
+from ..errors import cited, ensure, one_word, unknown
 from ..frozen import immutable
 from ..mechanism import Mechanism, require_mechanism
 from ..plan import Plan
@@ -65,11 +65,11 @@ class Box:
         ranges = {name: range_of(name, value) for name, value in vary.items() if isinstance(value, tuple)}
         lists = {name: value for name, value in vary.items() if name not in ranges}
         for name, given in lists.items():
-            if not isinstance(given, (list, range)) or not given:
-                raise unfit(name, given, "write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)]")
+            expected = "write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)]"
+            require(isinstance(given, (list, range)) and given, name, given, expected)
             for each in given:
-                if not (is_number(each) or is_pair(each)):
-                    raise DefinitionError(f"{name}: {cited(each)} is no choice; write a number, or the two coordinates (x, y) of a point.")
+                what = f"{name}: {cited(each)} is no choice; write a number, or the two coordinates (x, y) of a point."
+                ensure(is_number(each) or is_pair(each), what)
         box = cls(ranges, [dict(zip(lists, each, strict=True)) for each in product(*lists.values())])
         for settings in (*box.choices, *({name: end} for name, pair in ranges.items() for end in pair)):
             machine.replaced(**settings)

@@ -289,10 +289,8 @@ def nothing_limits(motion: Motion, quantity: Any) -> Mask:
 
 def check_no_worst(leaf: Leaf) -> None:
     """Raise DefinitionError for a leaf that is over another stroke."""
-    if leaf.worst_over:
-        raise DefinitionError(
-            f"{leaf}: a study of tolerances looks at the strokes it is given; take most(...) over a grid of both strokes."
-        )
+    what = "a study of tolerances looks at the strokes it is given"
+    ensure(not leaf.worst_over, f"{leaf}: {what}; take most(...) over a grid of both strokes.")
 
 
 def fold_start(leaf: Leaf) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -37,6 +37,8 @@ SETTLED = 1e-12
 SEAM, ROUNDING = 1e-10, 1e-6
 """Of a turn: an angle so near to where the turn begins stands there; an angle that is so little before another may be so by rounding."""
 WAY = RunOptions("numpy")
+Through: TypeAlias = Callable[[FloatArray], Mask] | None
+"""Which designs (m, n + w) a search may come through; None for all."""
 
 
 def one_way_round(angles: FloatArray, turn: float = TURN) -> FloatArray:
@@ -242,14 +244,7 @@ class Fit:
         return off, slopes.reshape(len(at), r * points, -1)
 
     def descend(
-        self,
-        at: FloatArray,
-        base: FloatArray,
-        steps: int,
-        *,
-        through: Callable[[FloatArray], Mask] | None = None,
-        held: Sequence[int] = (),
-        begin: float = BEGIN,
+        self, at: FloatArray, base: FloatArray, steps: int, *, through: Through = None, held: Sequence[int] = (), begin: float = BEGIN
     ) -> tuple[FloatArray, FloatArray]:
         """Return where the misses are least near starts (m, n + w), and the sums of their squares (m,), infinite out of reach.
 

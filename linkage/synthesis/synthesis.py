@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -32,7 +32,7 @@ from ..vectors import FloatArray, Mask, Side
 from .defects import TOLD, change_point_words, in_order, order_words
 from .exact import REGISTERED, FoundMachines
 from .fit import Fit
-from .tasks import PathTask, PoseTask, Task, TaskRows, of_class, squares_near, sum_of_parts, task_named_in, task_of
+from .tasks import AskedTasks, PathTask, PoseTask, Task, TaskRows, of_class, squares_near, sum_of_parts, task_named_in, task_of
 
 MOST_ROUNDINGS = 1024
 CLOSEST_CHANGE_POINT = 1e-6
@@ -450,12 +450,7 @@ def swept_size(fit: Fit, machine: Mechanism) -> float:
 
 
 def synthesised_classes(
-    one: Callable[..., Synthesis],
-    machines: Any,
-    asked: Sequence[tuple[str, Any, type]],
-    by_class: Mapping[str, Any],
-    progress: Any,
-    options: Mapping[str, Any],
+    one: Callable[..., Synthesis], machines: Any, asked: AskedTasks, by_class: Mapping[str, Any], progress: Any, options: Mapping[str, Any]
 ) -> Synthesis:
     """Return the results of several classes, each searched by `one`, the synthesis of one machine, one after the other; see `synthesise`.
 
@@ -481,9 +476,7 @@ def synthesised_classes(
     return compared(found, limit)
 
 
-def search_of_class(
-    machine: Mechanism, asked: Sequence[tuple[str, object, type]], by_class: Mapping[str, object]
-) -> tuple[Mechanism, dict[str, object]]:
+def search_of_class(machine: Mechanism, asked: AskedTasks, by_class: Mapping[str, object]) -> tuple[Mechanism, dict[str, object]]:
     """Return a machine, and the arguments of its search: the task in its own names, and the options of its class or of all."""
     task = task_named_in(machine, task_of(machine.plan.title, asked))
     task.rows(machine)  # refuses what is no point of it

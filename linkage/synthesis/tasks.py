@@ -348,7 +348,11 @@ def check_point(machine: Mechanism, name: object) -> None:
     require(isinstance(name, str) and name in machine.plan.moving, f"{machine.plan.title}: of", name, expected)
 
 
-def task_of(title: str, given: Sequence[tuple[str, object, type]]) -> Task:
+AskedTasks: TypeAlias = Sequence[tuple[str, object, type]]
+"""What stands under each keyword of a task, with its kind."""
+
+
+def task_of(title: str, given: AskedTasks) -> Task:
     """Return the one task that is given by its keyword; DefinitionError for none, several, or another kind."""
     said = [(name, value, kind) for name, value, kind in given if value is not None]
     ensure(len(said) == 1, f"{title}: say one task, path=PathTask(...), function=FunctionTask(...) or motion=PoseTask(...).")

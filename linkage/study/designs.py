@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
 from hashlib import blake2b
 from math import prod
@@ -134,7 +135,7 @@ Measure: TypeAlias = Callable[..., Mapping[str, Any]]
 
 
 @immutable
-class Task:
+class StudyWork(ABC):
     """The work common to all batches of a study: `measure` is called for `piece` designs of a machine at a time, on one back end.
 
     `what` are the data to send to a worker, in words.
@@ -146,8 +147,17 @@ class Task:
     backend: str
     what: str
 
+    @abstractmethod
     def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
         """Return the results of the designs from start to before stop, of each piece: arrays whose first axis is that of the designs."""
+
+
+@immutable
+class Task(StudyWork):
+    """The work of a survey: `measure` gives arrays of a machine's designs."""
+
+    def done(self, rows: DesignValues, start: int, stop: int) -> list[dict[str, Array]]:
+        """Return the measures of the designs from start to before stop, of each piece."""
         whole, title, done = self.machine.replaced(**rows), self.machine.plan.title, []
         for first in range(start, stop, self.piece):
             last = min(first + self.piece, stop)
@@ -173,7 +183,7 @@ class Batch:
     values: Mapping[str, Array] | None = None
 
 
-def measure_batch(task: Task, start: int, stop: int, rows: DesignValues, attempt: int) -> Batch:
+def measure_batch(task: StudyWork, start: int, stop: int, rows: DesignValues, attempt: int) -> Batch:
     """Return a measured batch; StudyError where `measure` fails, DefinitionError where it returns a wrong value.
 
     `attempt` sets a second try apart from the first for executors that know a call by its arguments.
@@ -203,7 +213,7 @@ def result_arrays(title: str, found: object, size: int, where: str) -> dict[str,
     return arrays
 
 
-def check_same_results(task: Task, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
+def check_same_results(task: StudyWork, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
     """Raise DefinitionError where results have not the names and kinds that others have."""
     here, there = (", ".join(f"{name} ({each[name].dtype})" for name in sorted(each)) for each in (found, known))
     ensure(here == there, f"{task.machine.plan.title}: measure returned {here} for {where}, elsewhere {there}; return the same.")

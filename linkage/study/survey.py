@@ -27,7 +27,7 @@ from ..mechanism import Mechanism
 from ..shown import Shown
 from .checkpoint import Checkpoint, facts_of, how_far
 from .checks import check_in_count, check_one_design, check_vary
-from .designs import Array, Batch, Designs, Task, check_same_results, measure_batch
+from .designs import Array, Batch, Designs, StudyWork, Task, check_same_results, measure_batch
 
 TRIES = 3
 PICKLING_ERRORS = (PicklingError, AttributeError, TypeError, ImportError)
@@ -58,7 +58,7 @@ class LocalExecutor:
 class SurveyRun:
     """The progress of a study: the batches done, under way, and left."""
 
-    def __init__(self, task: Task, designs: Designs, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
+    def __init__(self, task: StudyWork, designs: Designs, executor: Executor, checkpoint: Checkpoint | None, tell: Progress) -> None:
         self.task, self.designs, self.executor, self.checkpoint, self.tell = task, designs, executor, checkpoint, tell
         self.left = OpenRanges(designs.count, task.piece)
         self.sizes = BatchSizes(max(1, MOST // (task.piece * designs.numbers_each)))

@@ -14,7 +14,7 @@ from ..frozen import immutable
 from ..numeric.descent import BEGIN
 from ..program import FloatArray
 from ..study.checkpoint import Checkpoint
-from ..study.designs import Array, Designs, DesignValues, Task
+from ..study.designs import Array, Designs, DesignValues, StudyWork
 from ..study.problem import Problem
 from ..study.solver import Local
 from ..study.survey import Executor, Progress, SurveyRun
@@ -53,7 +53,7 @@ def joined_rows(parts: Sequence[Part]) -> Designs:
 
 
 @immutable
-class FitWork(Task):
+class FitWork(StudyWork):
     """Work on designs by the fit of their combination, `piece` at a time; the result of each design does not depend on the worker.
 
     `measure` returns the results of designs of one combination, arrays (m, ...) by name, from the fit and their rows. The `facts` identify

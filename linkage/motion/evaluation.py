@@ -219,10 +219,11 @@ def guard_masks(
     count = len(kernel.plan.outputs)
     with np.errstate(invalid="ignore"):
         above = np.broadcast_to(kernel(inputs, size=size, way=way).values, (count, *size)) > 0.0
-    hold, placed, far, present = np.split(above, np.cumsum([assumed, count - assumed - len(requests) - sum(gaps), len(requests)]))
+    last = count - sum(gaps)  # those of the requests' gaps are the last ones
+    placed, far = above[assumed : last - len(requests)], above[last - len(requests) : last]
     near = ~far & ~keeps_digits(plan, requests, inputs, ~far)
-    empty = np.array([~each.all(axis=0) for each in np.split(present, np.cumsum(gaps)[:-1])])
-    return np.asarray(~hold.all(axis=0)), np.asarray(~placed.all(axis=0)), near, empty
+    empty = np.array([~above[last + end - each : last + end].all(axis=0) for each, end in zip(gaps, accumulate(gaps), strict=True)])
+    return np.asarray(~above[:assumed].all(axis=0)), np.asarray(~placed.all(axis=0)), near, empty
 
 
 def grid_blocks(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:

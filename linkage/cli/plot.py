@@ -53,8 +53,8 @@ def draw_command(options: Namespace) -> int:
     """Draw a machine into a file."""
     machine = settings.machine_of(options)
     path = picture(options, machine)
-    if (options.case or options.direction) and not (options.forces or options.on):
-        raise DefinitionError("--case and --direction are of forces; say --forces too, or --on BODY.")
+    fits = options.forces or options.on or not (options.case or options.direction)
+    ensure(fits, "--case and --direction are of forces; say --forces too, or --on BODY.")
     ensure(not (options.forces and options.on), "--forces are those of all pins, --on those of one body; give one of them.")
     at, acting = settings.strokes_given(machine, options), settings.acting_of(machine, options)
     if at:
@@ -87,8 +87,8 @@ def plot_command(options: Namespace) -> int:
     """Draw curves into a file."""
     machine = settings.machine_of(options)
     path = picture(options, machine)
-    if not options.columns and (options.limits or options.case or options.direction):
-        raise DefinitionError("--limit, --case and --direction go with curves; name their columns, such as plot NAME pressure.")
+    fits = options.columns or not (options.limits or options.case or options.direction)
+    ensure(fits, "--limit, --case and --direction go with curves; name their columns, such as plot NAME pressure.")
     at = settings.strokes_or_motion(machine, options)
     from ..pictures import plot
 

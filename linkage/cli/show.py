@@ -10,7 +10,7 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import DefinitionError, ensure
+from ..errors import ensure
 from ..loads import ForceElement
 from ..mechanism import Mechanism
 from ..plan import spanning_name, strokes_text, written_out
@@ -89,16 +89,15 @@ def check_asked(options: Namespace) -> None:
     """Raise DefinitionError for options of equations without these, and for numbers in LaTeX."""
     given = {"--start": options.start, "--ratio": options.ratio, "--wrt": options.wrt, "--forces": options.forces}
     given |= {"--numbers": options.numbers, "--at": options.strokes, "--latex": options.latex}
-    if options.output is not None and not options.modes:
-        raise DefinitionError(f"-o {options.output}: the picture is of the assembly modes; say --modes too, or use `draw`.")
+    remedy = "say --modes too, or use `draw`"
+    ensure(options.output is None or options.modes, f"-o {options.output}: the picture is of the assembly modes; {remedy}.")
     if options.modes:
         given.pop("--at")
     named = [name for name, value in given.items() if value not in (None, False, [])]
-    if named and not options.equations:
-        raise DefinitionError(f"{named[0]} says how equations are printed; say --equations too.")
+    ensure(options.equations or not named, f"{''.join(named[:1])} says how equations are printed; say --equations too.")
     ensure(options.wrt is None or options.ratio, f"--wrt {options.wrt}: it is the stroke of --ratio; say --ratio too, such as --ratio G.")
-    if options.latex and (options.numbers or options.strokes):
-        raise DefinitionError("--latex prints symbols, not numbers; leave out --numbers and --at, or --latex.")
+    fits = not options.latex or not (options.numbers or options.strokes)
+    ensure(fits, "--latex prints symbols, not numbers; leave out --numbers and --at, or --latex.")
 
 
 def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> int:

@@ -17,7 +17,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..disk import replacing_text
-from ..errors import DefinitionError, cited, ensure
+from ..errors import cited, ensure
 from ..language import heading_of, said
 from ..loads import Acting
 from ..mechanism import Mechanism
@@ -48,8 +48,8 @@ from .settings import CHECK, FORCES, OVER
 )
 def table_command(options: Namespace) -> int:
     """Print or write the table of results."""
-    if options.csv == "-" and (options.pins or options.limits):
-        raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
+    fits = options.csv != "-" or not (options.pins or options.limits)
+    ensure(fits, "--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
     machine = settings.machine_of(options)
     acting, motions = settings.acting_of(machine, options), settings.motions_at(machine, options)
     over, strokes, names = settings.judged_over(machine, options), list(machine.strokes), list(options.columns)
@@ -79,9 +79,8 @@ def worst_pins(machine: Mechanism, over: Sequence[Over | Motion] | None, acting:
 
     In all load cases and directions that `acting` leaves open; DefinitionError where nothing acts.
     """
-    judge = machine.judge(over, acting)
-    if not is_loaded(judge.motion):
-        raise DefinitionError(f"{machine.plan.title} declares no load, so that no pin carries anything; declare one, Weight(G, mass=100).")
+    what = f"{machine.plan.title} declares no load, so that no pin carries anything"
+    ensure(is_loaded(machine.judge(over, acting).motion), f"{what}; declare one, Weight(G, mass=100).")
     return table_text(max_table(machine, over, acting))
 
 

@@ -1,7 +1,7 @@
 """The ordered steps, their dimensions, and their program."""
 
 from ..star import declare_public
-from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm, strokes_alone
+from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, holds_an_arm, strokes_alone
 from .members import (
     Body,
     as_written,

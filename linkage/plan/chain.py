@@ -7,12 +7,12 @@ all of them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 from ..frozen import immutable
-from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, joined_names, needed_behind, needs, of_kind
+from ..quantities import Joint, JointSide, Member, Quantity, Stroke, body_name, needed_behind, needs, of_kind
 from ..steps import Point
 from .members import FRAME, Body, Members, carrying_pairs, member_sides, spanning_name
 
@@ -40,12 +40,10 @@ class Pair:
 class KinematicChain:
     """Bodies and pairs. Bodies that share a point are pinned there to the first of them, n bodies by n - 1 pins."""
 
-    def __init__(self, bodies: Sequence[Body], cylinders: Iterable[tuple[str, str]] = ()) -> None:
+    def __init__(self, bodies: Sequence[Body]) -> None:
         self.bodies = [ChainBody(body.name, FRAME if body.fixed else "body", body.points) for body in bodies]
         self.slides: list[Pair] = []
         self.turns: dict[tuple[str, str], tuple[str, ...]] = {}
-        for P, Q in cylinders:
-            self.add_cylinder(joined_names(P, Q), P, Q)
 
     def add_body(self, name: str, kind: str, points: tuple[str, ...]) -> str:
         """Enter a body and return its name, with a number where there is one of that name."""
@@ -88,11 +86,6 @@ class KinematicChain:
     def gruebler_count(self) -> int:
         """The Gruebler count 3 (n - 1) - 2 j."""
         return 3 * (len(self.bodies) - 1) - 2 * len(self.pairs)
-
-
-def gruebler(bodies: Sequence[Body], cylinders: Iterable[tuple[str, str]]) -> int:
-    """Return 3 (n - 1) - 2 j of bodies that are pinned where they share points, and cylinders between points."""
-    return KinematicChain(bodies, cylinders).gruebler_count
 
 
 def chain_of(plan: Members) -> KinematicChain:

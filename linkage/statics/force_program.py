@@ -70,8 +70,7 @@ def program_of(structure: Structure, applied: AppliedLoads, places: Sequence[int
     loads = tuple((each.point, *each.on) for each in applied.loads)
     struts = tuple((each.name, each.P, each.Q, each.known is None) for each in structure.struts)
     lines = tuple((line.stroke, line.cylinders, line.tie) for line in structure.holders.every_line)
-    blocks = tuple(body.name for body in structure.blocks)
-    key = ("joint forces", loads, struts, lines, blocks, tuple(places))
+    key = ("joint forces", loads, struts, lines, tuple(body.name for body in structure.blocks), tuple(places))
     try:
         return structure.plan.made(key, lambda twin: traced_program(twin, applied, tuple(places)))
     except DefinitionError:

@@ -23,7 +23,7 @@ from ..units import kN, show
 from .applied import applied_loads, rates_in
 from .force_program import forces_at
 from .joints import FRAME, FRAME_NAME, Structure, acting_place, force_direction
-from .poses import FlatPoses
+from .poses import FlatPoses, cross
 from .solution import PoseForces, check_joints, held_in_case, locked_words
 from .vehicle import ground_loads, standing_if_any, tipping_words
 from .work import by_work, poses_held, without_held, without_work, work_gap
@@ -258,7 +258,7 @@ class PinForces(Shown):
         contact = self._structure.sliding_joint(pairs[name], "n")
         joint = self.joints[self._structure.contacts.index(contact)]
         arm = self.motion[Q] - self.motion[P]
-        across = (arm[0] * joint.force[1] - arm[1] * joint.force[0]) / np.hypot(arm[0], arm[1])
+        across = cross(arm, joint.force) / np.hypot(arm[0], arm[1])
         return GlandForce(contact.point, across, joint.couple, self.motion[contact.point])
 
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
@@ -325,8 +325,7 @@ class PinForces(Shown):
         forces += [(each.by, place, -each.force, -each.couple) for each, place in acts]
         forces += [(body, places[load.point], load.force, np.zeros(())) for body, load in self._loads]
         for body, place, force, couple in forces:
-            moment = (place[0] * force[1] - place[1] * force[0] + couple) / extent
-            row = np.stack(np.broadcast_arrays(*force, moment))
+            row = np.stack(np.broadcast_arrays(*force, (cross(place, force) + couple) / extent))
             sums[body] = sums[body] + row if body in sums else row
             largest = np.maximum(largest, np.hypot(force[0], force[1]))
         held = {body: rows for body, rows in sums.items() if body != FRAME_NAME or self._ground}
@@ -438,8 +437,7 @@ def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: 
 
 def range_text(values: FloatArray, unit: str) -> str:
     """Return a range of values [N or Nm] in words, in the unit given."""
-    factor = kN if unit == "kN" else 1.0
-    finite = np.asarray(values)[np.isfinite(values)] / factor
+    finite = np.asarray(values)[np.isfinite(values)] / (kN if unit == "kN" else 1.0)
     if not finite.size:
         return "no value"
     ends = dict.fromkeys(f"{float(value):.6g}" for value in (finite.min(), finite.max()))

@@ -537,14 +537,17 @@ def standing_points(plan: Members) -> dict[str, tuple[str, ...]]:
     These are fixed points, those at a fixed place on a guide, and ends of cranks that nothing turns, on a pin of the same body.
     """
     found: dict[str, tuple[str, ...]] = {name: () for name in plan.ground}
+    guides = plan.of_kind(Guide)
     for name, point in plan.points.items():
-        line = plan.resting.get(name)
-        if line is not None and (len(line) == 2 or all(found.get(each, line) == () for each in line)):
-            found[name] = line if len(line) == 2 else ()
-        for joint in point.joints():
-            carrier = joint.by.points
-            carried = any({*carrier, joint.point} <= {*body} for body in plan.points[joint.point].bodies()) if carrier else False
-            if joint.kind == "crank" and not plan.is_there(joint) and (carried or found.get(joint.point) == carrier):
+        line, joints = plan.resting.get(name, ("", "")), point.joints()
+        pins = [(joint.point, joint.by.points) for joint in joints if joint.kind == "crank" and not plan.is_there(joint)]
+        if len(line) == 1:
+            pins += [(line[0], guides[joint.track[0]].axes.carrier) for joint in joints if joint.track]
+        elif name in plan.resting:
+            found[name] = line
+        for pin, carrier in pins:
+            is_carried = bool(carrier) and any({*carrier, pin} <= {*body} for body in plan.points[pin].bodies())
+            if is_carried or found.get(pin) == carrier:
                 found[name] = carrier
     return found
 

@@ -50,7 +50,7 @@ def test_a_pivot_that_nothing_drives_is_one_of_the_frame(machine):
 
 
 class Flap(Mechanism):
-    """A flap on a lug; a stroke turns it."""
+    """A flap on a lug or on a carriage; a stroke turns it."""
 
     q = Stroke(0.0, 0.5)
     O = Ground(0.0, 0.0)
@@ -60,10 +60,24 @@ class Flap(Mechanism):
     load = Weight(Y, mass=100.0)
 
 
+class OnRail(Flap):
+    """The same on a rail at a place that is a number."""
+
+    rail = Guide("O", angle=40 * deg)
+    tilt = None
+    X = OnGuide(rail, at=0.5)
+
+
 class Carries(Boom):
     """The boom with a flap that is not moved."""
 
     flap = Part(Flap, q=0.2, on=("G", "O"))
+
+
+class CarriesRail(Boom):
+    """The same on a rail."""
+
+    flap = Part(OnRail, q=0.2, on=("G", "O"))
 
 
 class Flat(Boom):
@@ -74,7 +88,9 @@ class Flat(Boom):
     second = Weight(Y, mass=100.0)
 
 
-def test_a_part_whose_stroke_is_a_number_is_one_body_with_what_carries_it():
-    carries, flat = Carries(), Flat()
+@for_all("machine", [Carries, CarriesRail])
+def test_a_part_whose_stroke_is_a_number_is_one_body_with_what_carries_it(machine):
+    carries, flat = machine(), Flat()
     assert (carries.freedom.gruebler, len(carries.links)) == (flat.freedom.gruebler, len(flat.links)) == (1, 2)
     assert_allclose(carries.sweep(5)[thrust("ram")], flat.sweep(5)[thrust("ram")], rtol=1e-12)
+    assert_allclose(pin_forces(carries.sweep(5)).force("O"), pin_forces(flat.sweep(5)).force("O"), rtol=1e-10)

@@ -15,14 +15,12 @@ from typing import NamedTuple, Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
-import numpy.typing as npt
 
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Node
-from ..vectors import Mask, Numbers
+from ..vectors import Index, Mask, Numbers
 from .groups import GroupSolution, singled, solve_groups
 
-Index = npt.NDArray[np.intp]
 PIECES = 128
 """The pieces of a stroke's range, or of a turn where its range is more, that a way consists of before any is halved."""
 LEAST = 2.0**-30

@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from ..plan import Plan
 from ..program import BACKEND, FLOATS, GUARDED, Dialect, FloatArray, Level, Node, ancestors, compiled, expanded, lowered, replaced
@@ -15,7 +14,7 @@ from ..program.cache import is_cached
 from ..program.numba_backend import compiled_loop, pays_compiled
 from ..program.text import HEAD, NUMBA, lane_loop
 from ..steps import Group
-from ..vectors import Numbers
+from ..vectors import Index, Numbers
 from .newton import ITERATIONS, Newton, Programs, at_poses, largest_of, size_of
 from .rules import FIRST, TINY, TOUCH, goes_on, interpolated, newton_ended, predicted, step_judged
 
@@ -268,7 +267,6 @@ def fill(lane, place, a, b, first, places, ended, found, close):
 '''
 
 
-Index = npt.NDArray[np.intp]
 CROSSING = 0.75
 BLOCK = 16384
 ROOM = 64

@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, ismethod, signature
-from typing import Any
+from typing import Any, TypeAlias
 
 from ..checks import is_listed, require, require_type
 from ..errors import DefinitionError, cited, ensure, errors_of
-from ..frozen import immutable
+from ..frozen import FrozenDict, immutable
 from ..loads import ForceElement
 from ..quantities import Member
 from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
@@ -25,6 +25,9 @@ from .names import NAME_LENGTH, FileTable, Keywords, Names
 from .source import Mistakes
 from .validators import KINDS, Kind, amount, fixed_number, quantity_of
 
+Make: TypeAlias = Callable[..., Member]
+Keys: TypeAlias = Mapping[str, str]
+NO_KEYS: Keys = FrozenDict()
 LABELS = 100
 VALUES = 100
 """Values in a list of them."""
@@ -225,17 +228,10 @@ class FileEntry:
     """Whether members of subclasses are written in the same way."""
 
     def __init__(
-        self,
-        describes: type[Any],
-        section: str,
-        word: str = "",
-        *,
-        path: str = "",
-        keys: Mapping[str, str] | None = None,
-        make: Callable[..., Member] | None = None,
+        self, describes: type[Any], section: str, word: str = "", *, path: str = "", keys: Keys = NO_KEYS, make: Make | None = None
     ) -> None:
         self.describes, self.section, self.word, self.path, self.make = describes, section, word, path, make or describes
-        given = [replace(each, key=(keys or {}).get(each.name, each.name)) for each in arguments_of(describes)]
+        given = [replace(each, key=keys.get(each.name, each.name)) for each in arguments_of(describes)]
         self.built_from = tuple(each for each in given if each.kind.refers and each.needed)
         first = ("near", "at", "side") if issubclass(describes, Step) else ()
         others = [each for each in given if each not in self.built_from]

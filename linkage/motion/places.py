@@ -537,8 +537,7 @@ class BranchSearch:
         left, sizes, right = np.linalg.svd(np.where(known[:, None, None], slopes, 0.0))
         way, cell = right[:, -1], np.array([axis[1] - axis[0] for axis in self.axes])
         aside = self.places.slopes(found.unit + BESIDE * way * cell) / scale[:, None]
-        change = np.einsum("nt,ntk,nk->n", left[:, :, -1], aside - slopes, way)
-        twin = -2.0 * BESIDE * sizes[:, -1] / change
+        twin = -2.0 * BESIDE * sizes[:, -1] / np.einsum("nt,ntk,nk->n", left[:, :, -1], aside - slopes, way)
         close = known & (np.abs(twin) < CELLS)
         if not close.any():
             return found.select(slice(0))

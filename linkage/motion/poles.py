@@ -73,8 +73,7 @@ def pole_of(body: BodyRates, other: BodyRates, fastest: FloatArray) -> FloatArra
     X = body[0] if np.any(body[3]) else other[0]
     speed, against = (p + spin * np.stack([P[1] - X[1], X[0] - P[0]]) for P, p, spin, _ in (body, other))
     speed, spin, length = speed - against, body[2] - other[2], np.maximum(body[3], other[3])
-    away = np.stack([-speed[1], speed[0]])
-    found = X + away / spin
+    found = X + np.stack([-speed[1], speed[0]]) / spin
     size = np.hypot(speed[0], speed[1])
     found = np.where(np.abs(spin) * length * ENDLESS <= size, np.inf, found)
     still = np.maximum(size, np.abs(spin) * length) <= STILL * fastest

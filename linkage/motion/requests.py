@@ -262,9 +262,7 @@ def as_they_run(requests: Sequence[RequestLike], accelerated: bool, timed: bool 
     """
     direction = AS_IT_RUNS if timed else None
     acting = Acting(direction=direction, rates=AS_IT_RUNS, accelerations=AS_IT_RUNS if accelerated else None)
-    if type(requests) not in (list, tuple):
-        return requests
-    return [situated(each, acting, keep=timed) for each in requests]
+    return requests if type(requests) not in (list, tuple) else [situated(each, acting, keep=timed) for each in requests]
 
 
 def situated(quantity: AnyRequest, acting: Acting, *, keep: bool = True) -> AnyRequest:

@@ -415,8 +415,7 @@ class InBox:
         """Return the poses (D, c, n) at places (u, n, k) of a design each (u,), which of the c (u,) each is, and this shape."""
         D, count = len(self._reached), np.bincount(design, minlength=len(self._reached))
         slot = np.empty(len(design), int)
-        order = np.argsort(design, kind="stable")
-        slot[order] = np.arange(len(design)) - np.repeat(np.cumsum(count) - count, count)
+        slot[np.argsort(design, kind="stable")] = np.arange(len(design)) - np.repeat(np.cumsum(count) - count, count)
         unit = np.zeros((D, int(count.max(initial=1)), *places.shape[1:]))
         unit[design, slot] = places
         shape = (*self.first._design_shape, *unit.shape[1:-1])

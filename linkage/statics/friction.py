@@ -72,8 +72,7 @@ def consistent_frictions(pressing: PressingForces, coefficient: FloatArray) -> t
         block = slice(start, start + BLOCK)
         here, mu = pressing.at(block), coefficient[:, block]
         size = np.hypot(here.by_unit[first], here.by_unit[last]) * share[:, :, None]
-        growth = mu * np.einsum("rjn,jn->rn", size, np.abs(here.lever))
-        hard = ~(np.max(growth, axis=0, initial=0.0) < CONTRACTS)
+        hard = ~(np.max(mu * np.einsum("rjn,jn->rn", size, np.abs(here.lever)), axis=0, initial=0.0) < CONTRACTS)
         if not hard.all():
             with np.errstate(over="ignore", invalid="ignore"):  # of poses that do not contract
                 q[:, block] = by_iteration(pressing.parts, mu, here.forces)

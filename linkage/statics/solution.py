@@ -432,8 +432,7 @@ def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, s
         motion, mask = require_motion(poses.motion), poses.mask(bad)
         what = point_ratios(set(poses.plan.members))
         (found,) = examined(poses.plan, (what,), motion._grid.inputs_at(mask), motion._grid.read_at(mask), [0])
-        sizes = np.broadcast_to(size, bad.shape)[bad]
-        bad[bad] = ~(miss[bad] <= MARGIN * np.nan_to_num(found.error, nan=0.0) * sizes)
+        bad[bad] = ~(miss[bad] <= MARGIN * np.nan_to_num(found.error, nan=0.0) * np.broadcast_to(size, bad.shape)[bad])
     return bad
 
 

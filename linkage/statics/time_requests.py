@@ -84,8 +84,7 @@ def acceleration(point: Reference) -> LawRequest:
     """
 
     def over(motion: AnyMotion, name: str) -> FloatArray:
-        rates = own_rates(motion, f"acceleration({name})")
-        x, y = motion.acceleration(name, rates, require_motion(motion).accelerations)
+        x, y = motion.acceleration(name, own_rates(motion, f"acceleration({name})"), require_motion(motion).accelerations)
         return cast(FloatArray, np.hypot(x, y))
 
     return point_request("acceleration", point, "acceleration", over)

@@ -34,10 +34,10 @@ from tests.tools.reach import Reach
 
 ROOT = Path(__file__).parents[2]
 ROOMS = (
-    "linkage/steps", "linkage/assembly", "linkage/program", "linkage/motion", "linkage/statics", "linkage/study", "linkage/formulas",
-    "linkage/documents", "linkage/exports", "hydraulics",
+    "linkage/steps", "linkage/plan", "linkage/assembly", "linkage/program", "linkage/motion", "linkage/statics", "linkage/study",
+    "linkage/synthesis", "linkage/formulas", "linkage/documents", "linkage/exports", "hydraulics",
 )  # fmt: skip
-COPIED = ("linkage", "hydraulics", "mechanisms", "tests", "docs", "README.md", "CHANGELOG.md", "pyproject.toml", "run", ".ci")
+COPIED = ("linkage", "hydraulics", "mechanisms", "tests", "docs", "README.md", "CHANGELOG.md", "conftest.py", "pyproject.toml", "run")
 NOT_ASKED = ("tests/benchmarks", "tests/tools", "tests/test_demo.py", "tests/test_house.py", "tests/linkage/documents/test_run.py")
 """Tests of speed, of the whole demo, of the sources' text and of the shell script: no mutant needs them."""
 HEAVY = ("numpy", "scipy.optimize", "scipy.linalg", "sympy", "networkx", "matplotlib.pyplot", "numba", "rich")

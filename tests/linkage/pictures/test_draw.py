@@ -482,10 +482,14 @@ def test_a_stroke_that_turns_is_shown_in_degrees():
 
 def test_a_constant_column_a_single_pose_and_gaps_can_be_drawn():
     machine = MowerLift()
-    still = machine.sweep(3)
-    plot(still, [Column("p", np.full(3, 7.0))]).canvas.draw()
-    plot(machine.at(S=[0.6]), [Column("q", np.array([1.0]))]).canvas.draw()
-    plot(machine.at(S=[0.6, 2.0], unreachable="nan"), [Column("q", np.full(2, np.nan))]).canvas.draw()
+    for motion, values in (
+        (machine.sweep(3), np.full(3, 7.0)),
+        (machine.at(S=[0.6]), np.array([1.0])),
+        (machine.at(S=[0.6, 2.0], unreachable="nan"), np.full(2, np.nan)),
+    ):
+        figure = plot(motion, [Column("p", values)])
+        figure.canvas.draw()
+        assert any(np.array_equal(line.get_ydata(), values, equal_nan=True) for line in figure.axes[0].lines)
 
 
 def test_names_that_the_table_of_a_machine_leaves_out_are_plotted_too():

@@ -26,7 +26,7 @@ from tests.for_all import first_daily, for_all
 from tests.linkage.motion.in_node import elsewhere
 
 SHIPPED = {point.name: point for point in entry_points(group="hydrolinkage.machines")}
-QUICK = ("arm_drive", "three_point_hitch")
+QUICK = ("three_point_hitch",)
 TOUCH = 1.0
 """Pixels by which boxes of letters may touch: they are higher than the letters in them."""
 BESIDE = 2.0
@@ -183,7 +183,7 @@ def test_values_keep_clear_at_any_pose(seed):
             plt.close(figure)
 
 
-@first_daily(2, "name", sorted(SHIPPED, key=lambda name: name not in QUICK))
+@first_daily(1, "name", sorted(SHIPPED, key=lambda name: name not in QUICK))
 def test_no_text_of_a_shipped_machine_covers_another(name):
     check_machine(SHIPPED[name].load()())
 

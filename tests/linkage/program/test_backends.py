@@ -60,7 +60,8 @@ def firm(machine, inputs):
 
 
 def agree(found, wanted, firm=True):
-    """Assert that two results agree to 1e-12 of their size at firm poses, and in where they have no value."""
+    """Assert that two results agree to 1e-12 of their size at firm poses, some of which have a value, and in where they have none."""
+    assert (firm & np.isfinite(wanted)).any()
     found, wanted = (np.where(firm, np.asarray(values, float), 0.0) for values in (found, wanted))
     assert_array_equal(np.isnan(found), np.isnan(wanted))
     size = np.abs(wanted) + np.nanmax(np.abs(wanted), axis=-1, keepdims=True, initial=1.0)

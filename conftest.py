@@ -1,4 +1,7 @@
-"""Examples are judged by what comes out, never by how long a busy machine takes for them."""
+"""Examples are judged by what comes out, never by how long a busy machine takes for them.
+
+It stands beside the packages, as pytest asks a hook in `tests` of nothing that is read elsewhere: of no page and no docstring.
+"""
 
 import gc
 import sys
@@ -34,7 +37,7 @@ def pytest_collect_file(file_path, parent):
     text = file_path.read_text(encoding="utf-8")
     if "\npytestmark = pytest.mark.slow\n" in text and parent.config.option.markexpr == "not slow":
         return []
-    if file_path.is_relative_to(Path(__file__).parent) or ">>>" not in text:
+    if file_path.is_relative_to(Path(__file__).parent / "tests") or ">>>" not in text:
         return [each for each in found if not isinstance(each, DoctestModule)]
     return found
 

@@ -13,13 +13,14 @@ from ..errors import DefinitionError, cited, ensure, known_name, one_word, unwar
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
-from ..motion.requests import may_be_unlimited
+from ..motion.requests import is_of_force, may_be_unlimited
 from ..program import RunOptions
 from ..quantities import is_number
 from ..units import display_unit
 from ..vectors import FloatArray, Index, Mask, Numbers
 from .checks import check_in_count
 from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
+from .optimum import in_units, unit_of_constraint
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
 
 Task = TypeVar("Task")
@@ -144,9 +145,13 @@ class MonteCarlo:
         plan = self.machine.plan
         tolerances = ", ".join(tolerance_words(plan, name, each) for name, each in self.tolerances.items())
         lines = [f"{plan.title}, {self.count} machines with {tolerances}; {self.at}."]
+        measures = [each for each in (*self.of.values(), *(each.margin for each in self.conditions)) if isinstance(each, Measure)]
+        if any(map(is_of_force, [*self.of.values(), *(leaf.quantity for each in measures for leaf in each.leaves)])):
+            lines.append("Forces for which no case or direction is asked are at rest, under the machine's own loads.")
         if self.assembled < 1.0:
             lines.append(f"{share_words(1.0 - self.assembled)} cannot be assembled everywhere and count as lost.")
-        lines += [f"{share_words(share)} keep {words}." for words, share in self.kept.items()]
+        shown = {str(each): in_units(each, unit_of_constraint(plan, each)) for each in self.conditions}
+        lines += [f"{share_words(share)} keep {shown[words]}." for words, share in self.kept.items()]
         return "\n".join([*lines, f"{share_words(self.yield_rate)} are good."] if self.kept else lines)
 
 

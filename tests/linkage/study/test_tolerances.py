@@ -173,6 +173,7 @@ def test_a_linear_output_has_the_moments_percentiles_and_yield_of_a_normal_law()
     assert_allclose([band.low, band.high], [-3.5 - 0.24, -3.5 + 0.24], rtol=1e-12)
     assert found.yield_rate == pytest.approx(0.9, abs=2e-3) and found.assembled == 1.0 == band.share
     assert [*found.kept.values()] == [found.yield_rate] and "90.0 % are good." in str(found)
+    assert "at rest" not in str(found)
 
 
 def test_bands_are_those_of_the_same_designs_one_motion():
@@ -294,6 +295,7 @@ def test_measures_are_taken_over_the_strokes_looked_at():
     kept = [known["range"] <= 13.73 * deg, there >= 9.8 * deg, forces.max(axis=-1) / forces.min(axis=-1) <= 1.2]
     assert_array_equal(found.good, np.all(kept, axis=0))
     assert_allclose([*found.kept.values()], np.mean(kept, axis=1))
+    assert "at rest, under the machine's own loads" in str(found) and f"keep at({tilt}, S=0.13) >= 9.8 deg" in str(found)
     bars = tornado(ThreePointHitch(), quantities["range"], {"M.y": 0.5 * mm, "OB": 0.1 * mm}, S=S)
     assert bars.bars[0].name == "M.y"
     assert_allclose(bars.nominal, swing(ThreePointHitch().at(S=S)), rtol=1e-12)

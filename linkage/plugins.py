@@ -80,6 +80,9 @@ class Plugins(Generic[T]):
         """Yield the names, those of this package first; nothing is loaded."""
         return iter({**self.own, **entry_points(self.group)})
 
+    def __len__(self) -> int:
+        return len({**self.own, **entry_points(self.group)})
+
     def __getitem__(self, name: str) -> T:
         """Return the plugin of a name; DefinitionError where it cannot be loaded or has a wrong kind, KeyError where there is none."""
         if name in self.own:

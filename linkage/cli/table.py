@@ -22,7 +22,7 @@ from ..language import heading_of, said
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, judged_poses, limits_over
-from ..reports import Run, dagger_words, force_columns, is_loaded, run_words, text_table, write_csv
+from ..reports import Run, dagger_words, force_columns, friction_of_columns, is_loaded, run_words, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
 from . import settings
 from .command import COLUMNS, CSV, EVERY, Command, machine_options, option, pose_options, progress_bar, repeatable
@@ -64,7 +64,8 @@ def table_command(options: Namespace) -> int:
         columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting), None if run is None else run.case)
         columns += settings.ratio_columns(machine, poses, options.ratio, options.wrt)
         outside = np.ravel(poses.reached & ~judged_poses(judge, poses)).tolist()
-        tables.append((heading_words(machine, run, poses), columns, outside))
+        friction = friction_of_columns(poses, columns, settings.plain_value(acting).direction)
+        tables.append((f"{heading_words(machine, run, poses)}\n{friction}".strip(), columns, outside))
     pins = worst_pins(machine, over, acting) if options.pins else ""
     write_tables(tables, options.csv)
     if pins:
@@ -192,7 +193,8 @@ def forces_command(options: Namespace) -> int:
             else:
                 columns.append(Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3))
         words = f"{run_words(machine, run)}: " if run is not None and len(motions) > 1 else ""
-        tables.append((f"{words}{machine.plan.title}, {pins.case}, {pins.direction}. {signs}", columns, ()))
+        friction = friction_of_columns(motion, columns, there.direction)
+        tables.append((f"{words}{machine.plan.title}, {pins.case}, {pins.direction}. {signs}\n{friction}".strip(), columns, ()))
         found.append(pins)
     write_tables(tables, options.csv)
     if options.csv == "-":

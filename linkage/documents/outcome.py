@@ -24,7 +24,7 @@ from ..pictures.scene import Scene
 from ..pictures.shown_values import as_curve, limit_of
 from ..pictures.style import ACCENT, INK, THIN, TITLE
 from ..program import FloatArray
-from ..reports import Run, dagger_words, run_words
+from ..reports import Run, dagger_words, friction_of_columns, run_words
 from ..reports.table import NO_VALUE, column_blocks, dagger_ends, flat
 from ..reports.table import column_texts as text_cells
 from ..units import UNITS, factor, unit_sign
@@ -115,8 +115,7 @@ def results_blocks(
         if any(texts.values()):
             still = [f"{heading_of(each.name)} {text} {unit_sign(each.unit)}".strip() for each, text in texts.items() if text]
             yield said("The same at all these poses: {values}.", values=", ".join(still))
-        if any(outside):
-            yield dagger_words()
+        yield from filter(None, [dagger_words() if any(outside) else "", friction_of_columns(motion, shown)])
     if names is None and subject.doubles:
         pairs = (said("{drive} is {thrust}", drive=heading_of(one), thrust=heading_of(other)) for one, other in subject.doubles.items())
         text = "; ".join(pairs)

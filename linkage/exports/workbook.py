@@ -26,7 +26,7 @@ from ..language import heading_of
 from ..loads import PLAIN_CASE, LoadCase
 from ..motion import stroke_display_unit, stroke_unit
 from ..pictures.chart_text import ChartText
-from ..reports import column_among, dimension_unit
+from ..reports import column_among, dimension_unit, friction_of_columns
 from ..statics.applied import case_of
 from ..study import WorkingField
 from ..study.working_field import OUT_OF_REACH
@@ -165,7 +165,8 @@ class Sheets:
             others = [name for name in (PLAIN_CASE, *cases) if name != (own.name or PLAIN_CASE)]
             loads = f"in load case {own.label}" if run.case is not None else f"under the machine's own loads, load case {PLAIN_CASE}"
             text = f"{text}, {loads}; {', '.join(others)} not in these sheets"
-        return f"{text}."
+        columns = [result.column for result in self.results]
+        return f"{text}. {friction_of_columns(self.calculation.motion, columns)}".strip()
 
     def _note(self, name: str, where: str) -> str:
         read = {str(symbol) for result in self.results if result.expr is not None for symbol in result.expr.free_symbols}

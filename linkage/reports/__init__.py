@@ -8,6 +8,7 @@ from .results import (
     column_among,
     columns_about,
     force_columns,
+    friction_of_columns,
     is_changing,
     is_loaded,
     rate_columns,

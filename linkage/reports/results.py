@@ -12,11 +12,11 @@ import numpy as np
 from ..checks import is_listed
 from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
 from ..files.criterion import REQUESTS, request_function
-from ..language import noted
+from ..language import noted, said
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement
 from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Answer, Column, Motion, Over, Tabled, columns_of, least, most, require_motion, speakers, stroke_unit
-from ..motion.judge import Domain
+from ..motion.judge import Domain, rubs
 from ..motion.measures import MeasuredQuantity
 from ..motion.requests import AnyRequest, may_be_unlimited, situated
 from ..program import FloatArray
@@ -160,6 +160,14 @@ def force_columns(motion: Motion, case: Case = None, direction: str | None = Non
         return []
     whole = motion._with_gaps()
     return [*drive_columns(whole, case, direction), *member_columns(whole, case, direction)]
+
+
+def friction_of_columns(motion: Motion, columns: Sequence[Column], direction: str | None = None) -> str:
+    """Return in words which columns count friction where no direction is asked for; "" without friction, and of a motion in time."""
+    judged = any(column.name.partition(" ")[0] in ("pressure", "reserve", "capacity") for column in columns)
+    if direction is not None or motion.time is not None or not judged or not rubs(motion.plan, motion, PLAIN):
+        return ""
+    return said("Forces and thrusts are without friction; the pressure and the reserve of a cylinder are with it, while it extends.")
 
 
 def rate_columns(motion: Motion) -> list[Column]:

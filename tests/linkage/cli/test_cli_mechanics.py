@@ -57,6 +57,14 @@ def said(capsys, tmp_path, monkeypatch):
     return run
 
 
+def test_the_columns_that_count_friction_are_named(said):
+    """Thrusts stand without it beside pressures with it, unless a direction is asked for, or nothing rubs."""
+    for arguments in (("table", "rubbing.py"), ("forces", "rubbing.py"), ("table", "rubbing.py:Loader", "--columns", "thrust")):
+        assert ("pressure and the reserve of a cylinder are with it, while it extends." in said(*arguments)[1]) == (len(arguments) == 2)
+    for arguments in (("table", "rubbing.py", "--direction", "frictionless"), ("table", "loader.py")):
+        assert "without friction" not in said(*arguments)[1]
+
+
 def numbers(text):
     """Return a CSV text by its headings."""
     heads, *rows = csv.reader(io.StringIO(text, newline=""))

@@ -118,6 +118,9 @@ class ClassBody(dict[str, object]):
     def __setitem__(self, name: str, value: object) -> None:
         first = self.get(name)
         if isinstance(first, Member) and value is not first:
+            for each, member in self.items():  # so that the message names the others and does not spell them out
+                if each != name and isinstance(member, Member):
+                    member.__set_name__(Mechanism, each)
             both = f"{name} = {as_line(first)} stands there already, and {name} = {as_line(value)} would take its place without a word"
             raise DefinitionError(f"{self.title}: {both}; give one of them another name, or take one out.", member=name)
         if isinstance(value, Part) and not value.name:

@@ -71,7 +71,17 @@ class OneLineParser(ArgumentParser):
     """A parser that reports a mistake in one line."""
 
     def error(self, message: str) -> NoReturn:
-        raise DefinitionError(f"{message}; see {self.prog} --help.")
+        word = message.partition("unrecognized arguments: ")[2].partition(" ")[0].partition("=")[0]
+        takers = [each.name for each in commands_for([]) if takes(each, word)] if word.startswith("--") else []
+        others = f"; {word} is of {', '.join(takers)}" if takers else ""
+        raise DefinitionError(f"{message}{others}; see {self.prog} --help.")
+
+
+def takes(command: Command, option: str) -> bool:
+    """Return whether a command takes an option, as its help says."""
+    parser = ArgumentParser(add_help=False)
+    command.add(parser)
+    return re.search(rf"{re.escape(option)}(?![\w-])", parser.format_usage()) is not None
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Mapping
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
+from inspect import getblock
 from pathlib import Path
 from traceback import extract_tb
 from types import ModuleType
@@ -89,9 +91,18 @@ def module_of_file(place: str) -> ModuleType:
         spec.loader.exec_module(module)
     except LinkageError as error:
         lines = [each.lineno for each in extract_tb(error.__traceback__) if each.filename == str(path)]
-        error.args = (f"{error} ({place}, line {lines[-1]})",) if lines else error.args
+        line = line_of(error.member, path.read_text("utf-8").split("\n"), lines[-1] or 0) if lines else 0
+        error.args = (f"{error} ({place}, line {line})",) if line else error.args
         raise
     return module
+
+
+def line_of(member: str, text: list[str], line: int) -> int:
+    """Return the line of a member of a class that begins at a line, 0 where it has none there; the line itself of any other fault."""
+    if not member or not text[line - 1].lstrip().startswith("class "):
+        return line
+    own = re.compile(rf"\s+{re.escape(member.partition('.')[0])}\s*[:=]")
+    return next((line + at for at, each in enumerate(getblock([f"{each}\n" for each in text[line - 1 :]])) if own.match(each)), 0)
 
 
 def of_module(module: ModuleType, name: str, place: str) -> type[Mechanism]:

@@ -11,7 +11,7 @@ import math
 import re
 from abc import ABC, abstractmethod
 from bisect import bisect_right
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import lru_cache, partial
 from itertools import accumulate
@@ -153,6 +153,8 @@ class Grammar(ABC):
 
     grammar: ClassVar[str] = GRAMMAR
     pattern: ClassVar[str] = OWN_WORDS
+    known: Collection[str] = ()
+    """Names that may stand in the text: one behind a number is no unit that is written wrong."""
 
     def __init__(self, text: str) -> None:
         self.text, self.tokens = text, tokens(text, self.pattern, self.grammar)
@@ -165,7 +167,8 @@ class Grammar(ABC):
         try:
             self.tree: ast.expr = ast.parse(" ".join(parts), mode="eval").body
         except SyntaxError as error:
-            raise DefinitionError(f"{text!r}: {self.misfit(error)}; {self.grammar}.") from None
+            said = self.misfit(error)
+            raise DefinitionError(f"{text!r}: {said}" if said.endswith(".") else f"{text!r}: {said}; {self.grammar}.") from None
 
     def misfit(self, error: SyntaxError) -> str:
         """Return the expected words at the place of a wrong one."""
@@ -175,6 +178,8 @@ class Grammar(ABC):
             return f"{repr(',') if before.kind == 'name' else repr(')')} is expected where its end stands"
         if error.msg not in ("invalid syntax", "unmatched ')'"):
             return error.msg
+        if before.kind == "number" and not before.unit and self.tokens[place].kind == "name" and word not in self.known:
+            return str(unknown("Unit", word, UNITS))
         is_complete = place > 0 and (before.kind != "sign" or before.text == ")")
         wanted = "an operator or the end" if is_complete else "a number, a name or a bracket"
         return f"{wanted} is expected where {repr(word) if word else 'its end'} stands"
@@ -236,8 +241,8 @@ class Parser(Grammar):
     """Reads one expression of a file."""
 
     def __init__(self, text: str, names: Names) -> None:
+        self.names, self.known = names, names.kinds
         super().__init__(text)
-        self.names = names
 
     def negative(self, part: Quantity) -> Quantity:
         return Number(-part.number) if isinstance(part, Number) else -part

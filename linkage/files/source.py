@@ -78,6 +78,13 @@ def located(name: str, message: str, text: str) -> str:
     match = re.search(r"\s*\(?:?\s*\(?(?:at )?line (\d+)[,:]? column \d+(?: \(char \d+\))?\)?", message)
     if match is None:
         return f"{name}: {message}."
+    keys = [found for found in lines_of_keys(text) if found[1] <= int(match.group(1))] or [((), 0)]
+    path, line = keys.pop()
+    first = next((at for each, at in keys if each[: len(path)] == path), 0)
+    if first and message.startswith(("Cannot overwrite", "Cannot declare")):
+        *table, key = path
+        of = f" of [{'.'.join(table)}]" if table else ""
+        return f"{name}, line {line}: {cited(key)}{of} stands twice, in line {first} first; give one of them another name, or take one out."
     return f"{name}, line {match.group(1)}: {(message[: match.start()] + message[match.end() :]).strip()}."
 
 
@@ -98,14 +105,21 @@ def unique(pairs: list[tuple[str, object]]) -> Keywords:
 # -- the lines of a TOML file on which its keys stand ------------------------------------------------------
 
 _PART = r"""[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*'"""
-_PATH = re.compile(rf"\s*(\[)?\s*((?:{_PART})(?:\s*\.\s*(?:{_PART}))*)\s*(?:=|\])")
+_PATH = re.compile(rf"\s*(\[)?\s*((?:{_PART})(?:\s*\.\s*(?:{_PART}))*)\s*(?(1)\]|=)")
 _SPLIT = re.compile(_PART)
 _LONG = re.compile(r'"""|' + r"'''")
 
 
 def key_lines(text: str) -> Mapping[Key, int]:
-    """Return the line, counted from 1, of every table and key that stands at the start of one."""
+    """Return the first line, counted from 1, of every table and key that stands at the start of one."""
     found: dict[Key, int] = {}
+    for key, number in lines_of_keys(text):
+        found.setdefault(key, number)
+    return found
+
+
+def lines_of_keys(text: str) -> Iterator[tuple[Key, int]]:
+    """Yield every table and key that stands at the start of a line, with the line; one that stands twice comes twice."""
     table: Key = ()
     inside = ""  # the mark of a text of several lines that goes on
     for number, line in enumerate(text.splitlines(), 1):
@@ -114,10 +128,9 @@ def key_lines(text: str) -> Mapping[Key, int]:
             path = tuple(part.strip("\"'") for part in _SPLIT.findall(match.group(2)))
             if match.group(1):
                 table = path
-            found.setdefault(table if match.group(1) else (*table, *path), number)
+            yield table if match.group(1) else (*table, *path), number
         for mark in _LONG.findall(line):
             inside = "" if inside == mark else inside or mark
-    return found
 
 
 # -- tables of rows ------------------------------------------------------------------------------------------

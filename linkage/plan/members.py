@@ -16,7 +16,7 @@ from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..language import translated
 from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable, body_name, joined_names
-from ..quantities.member import Member, name_of, needed_behind, needs, of_kind, unnamed
+from ..quantities.member import Member, is_member_or_name, kinds_said, name_of, needed_behind, needs, of_kind, unnamed
 from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms, stands_for
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
 from ..units import Amount, display_unit, require_measure, show
@@ -118,7 +118,7 @@ class Members:
         for name, needed in wanted.items():
             owner = members.get(name.rpartition(".")[0])
             needed += [owner.name] if owner is not None and owner.kind == "part" else []  # its part first, as it is pasted
-        order = construction_order(wanted, title)
+        order = construction_order(wanted, title, members)
         self.table = Table(title)
         bound: dict[str, Member] = {}
         for name in order:
@@ -502,7 +502,16 @@ def with_inner(given: Mapping[str, Member], title: str) -> tuple[dict[str, Membe
     return members, wanted
 
 
-def construction_order(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:
+def fitting(name: str, asked: str, members: Mapping[str, Member]) -> list[str]:
+    """Return the members that may stand where a member asks for a name, points where it asks for one; none where no door says which."""
+    parts = [members[name], *unnamed(members[name])] if name in members else []
+    doors = [(getattr(part, attribute, None), kind) for part in parts for attribute, kind in kinds_said(type(part)).items()]
+    doors += [(given, "point") for part in parts for given in getattr(part, "parents", ())]
+    kinds = [kind for given, kind in doors if is_member_or_name(given) and name_of(given, is_needed=False) == asked]
+    return [each for each, member in members.items() if member.kind in kinds and each != name]
+
+
+def construction_order(needs: Mapping[str, Iterable[str]], title: str, members: Mapping[str, Member] = MappingProxyType({})) -> list[str]:
     """Return the names so that each comes after all it needs, in the order written where that is free.
 
     Raises DefinitionError for a name nobody declares and for a cycle, which it prints.
@@ -511,7 +520,7 @@ def construction_order(needs: Mapping[str, Iterable[str]], title: str) -> list[s
     for name, wanted in graph.items():
         for each in wanted:
             if each not in graph:
-                raise unknown("Name", each, graph, where=f"{title}.{name}", member=name)
+                raise unknown("Name", each, fitting(name, each, members) or graph, where=f"{title}.{name}", member=name)
     try:
         return list(TopologicalSorter(graph).static_order())
     except CycleError as error:

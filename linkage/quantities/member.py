@@ -15,7 +15,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..errors import DefinitionError, article, cited, ensure
+from ..errors import DefinitionError, article, cited, ensure, unknown
 from ..frozen import FrozenDict
 from ..vectors import Line, Scalar, Vec
 
@@ -352,6 +352,9 @@ def check_arguments(kind: type[Member], given: tuple[object, ...], options: Mapp
     except TypeError as error:
         _, *parameters = taken.parameters.values()
         words = [f"{each.name} such as AB=0.3" if each.kind is Parameter.VAR_KEYWORD else each.name for each in parameters]
+        takes_any = any(each.kind is Parameter.VAR_KEYWORD for each in parameters)
+        for each in () if takes_any else [name for name in options if name not in words]:
+            raise unknown(f"{kind.__name__}(...): argument", each, words) from None
         raise DefinitionError(f"{kind.__name__}(...): {error}; it takes {', '.join(words) or 'nothing'}.") from None
 
 

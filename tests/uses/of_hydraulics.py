@@ -67,7 +67,7 @@ USES = [
     ),
     ('Cylinder("A", "B", bore=0.08, rod=0.045, @)', 'safety=nan; safety="a"; safety=[3.5, 4.0]', ("Buckling safety =", "in SI units.")),
     ('made(w=Cylinder("A", @, bore=0.08, rod=0.045))', "None; 3; (0, 1)", ("stands where a point or its name is expected.",)),
-    ('made(w=Cylinder("A", @, bore=0.08, rod=0.045))', '"Q"', ("Name 'Q' is unknown in Made.w. Known: S, L0, A, O, B, w.",)),
+    ('made(w=Cylinder("A", @, bore=0.08, rod=0.045))', '"Q"', ("Name 'Q' is unknown in Made.w. Known: A, O, B.",)),
     ('made(w=Cylinder("A", @, bore=0.08, rod=0.045))', '"A"', ("and ends at A; name two different points.",)),
     ('made(w=Cylinder("A", @, bore=0.08, rod=0.045))', '"S"', ("Made: w = Cylinder(A, S, bore=0.08, rod=0.045): S is not a point.",)),
     ("LiftCircuit(@, pressure=1.6e7)", '3; None; [3]; [None]; {"lift"}', ("stands where a cylinder or its name is expected.",)),

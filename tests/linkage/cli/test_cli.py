@@ -421,6 +421,7 @@ def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
         ("table mower_lift --cuont 3", "unrecognized arguments: --cuont"),
         ("table mower_lift kz --count 3 --cuont 3 Fi", "unrecognized arguments: --cuont 3 Fi"),
         ("table mower_lift --count 3 kzz", "Did you mean kz?"),
+        ("show mower_lift --case full", "unrecognized arguments: --case full; --case is of"),
         ("show mower_lift --set OB=180mm kz", "unrecognized arguments: kz"),
         ("save mower_lift --set OB=180mm lift.toml kz", "unrecognized arguments: kz"),
         ("table", "required: NAME"),
@@ -432,7 +433,7 @@ def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
         ("table two.py", "say two.py:Class, one of One, Two"),
         ("table broken.py", "broken.py, line 2: "),
         ("table failing.py", "ZeroDivisionError: division by zero"),
-        ("table wrong.py", "wrong.py cannot be loaded: Name 'A' is unknown in Wrong.B"),
+        ("table wrong.py", "wrong.py cannot be loaded: Name 'A' is unknown in Wrong.B. Known: O. (wrong.py, line 4)"),
     ],
 )
 def test_mistake_is_one_line_and_exit_code_2(said, own, arguments, words):
@@ -441,7 +442,8 @@ def test_mistake_is_one_line_and_exit_code_2(said, own, arguments, words):
     (own / "bare.py").write_text("from linkage import *\nclass Bare(Mechanism): pass\n")
     (own / "broken.py").write_text("from linkage import *\nclass Lever(\n")
     (own / "failing.py").write_text("1 / 0\n")
-    (own / "wrong.py").write_text('from linkage import *\nclass Wrong(Mechanism):\n    B = Dyad("A", "O", AB=1.0, OB=1.0, side=LEFT)\n')
+    wrong = 'from linkage import *\nclass Wrong(Mechanism):\n    O = Ground(0, 0)\n    B = Dyad("A", "O", AB=1.0, OB=1.0, side=LEFT)\n'
+    (own / "wrong.py").write_text(wrong)
     code, _, err = said(*arguments.split())
     assert code == 2
     assert err.startswith("hydrolinkage: ") and err.count("\n") == 1

@@ -96,7 +96,8 @@ def test_what_cannot_be_assembled_stays_an_assembly_error():
     ("text", "words"),
     [
         ("name = \n", "the text, line 1: Invalid value"),
-        ('name = "a"\nname = "b"\n', "the text, line 2: Cannot overwrite a value"),
+        ('name = "a"\nname = "b"\n', "the text, line 2: 'name' stands twice, in line 1 first; give one of them another name"),
+        ("[points]\nA = [0,\n1]\nA = [0,\n2]\n", "the text, line 4: 'A' of [points] stands twice, in line 2 first"),
         ('a = 1\n\n[x\nb = "c"\n', "the text, line 3: Expected ']'"),
         ('{"name": "a", "name": "b"}', "the text: the key 'name' stands twice"),
         ('{"a": NaN}', "the text, line 1: NaN is not a number"),

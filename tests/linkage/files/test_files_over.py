@@ -125,7 +125,9 @@ loading = """
         ('{ cases = ["full"] }', "Load case 'full' is unknown in Lever.loading. Known: plain."),
         ('{ cases = "plain" }', "a list of load cases is expected"),
         ('{ lost = "yes" }', '"allowed" is expected, or nothing'),
-        ('{ S = "5 parsec" }', "'5 parsec': an operator or the end is expected"),
+        ('{ S = "5 parsec" }', "'5 parsec': Unit 'parsec' is unknown. Known: m, mm,"),
+        ('{ S = "5 baar" }', "'5 baar': Unit 'baar' is unknown. Did you mean bar? Known: m, mm,"),
+        ('{ S = "5 phi" }', "'5 phi': an operator or the end is expected where 'phi' stands"),
         ('{ S = [0, "AB"] }', "Quantity 'AB' is unknown."),
     ],
 )

@@ -211,6 +211,16 @@ def test_a_name_that_stands_twice_in_a_class_would_lose_the_first(first, second)
         exec(lines, {**globals(), "Lever": Lever})
 
 
+def test_a_name_that_stands_twice_is_told_with_the_names_of_the_others():
+    with pytest.raises(DefinitionError, match=r"^Twice: P = Weight\(C, mass=3\) stands there already, and P = Weight\(C, mass=4\) would"):
+
+        class Twice(Mechanism):
+            O, B = Ground(0, 0), Ground(1, 0)
+            C = OnLink(O, B, OC=0.5)
+            P = Weight(C, mass=3)
+            P = Weight(C, mass=4)
+
+
 def test_a_name_may_be_free_again_and_a_variant_replaces():
     class Free(Lever):
         P = Ground(1, 0)

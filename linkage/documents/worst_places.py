@@ -12,8 +12,9 @@ from ..errors import LinkageError, unwarned
 from ..language import heading_of, said, said_of
 from ..loads import PLAIN_CASE
 from ..mechanism import verdicts_of
-from ..motion import Answer, Column, HasVerdicts, MotionFunction, PageWords, Request, places_text, speakers
-from ..motion.measures import Constraint, Leaf, least, measure_of, most
+from ..motion import Answer, Column, MotionFunction, Request, places_text
+from ..motion.measures import Constraint, least, measure_of, most
+from ..pictures.page_judge import share_used, used
 from ..pictures.shown_values import limit_of
 from ..reports import is_column
 from ..units import display_unit, rounded_up, show, shown_number, unit_sign
@@ -119,33 +120,12 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
 
 
 def rule_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> JudgedRow:
-    """Return the row of a rule, with the number that its sentence says, and how far its limit is used, as on a page.
-
-    A length that fits uses nothing.
-    """
-    member = speakers(subject.machine.plan, HasVerdicts).get(verdict.member)
-    rules = {} if member is None else member.page_words(subject.judge)
-    words = next((each for rule, each in rules.items() if verdict.rule in (rule, f"{rule} {verdict.member}")), PageWords(""))
-    question = answer.question.left if isinstance(answer.question, Constraint) else answer.question
-    kind = answer.measures or measure_of(subject.machine.plan, question)
-    share = used(answer) if words.share is None else float(subject.judge.answer(words.share).value)
+    """Return the row of a rule, with the number that its sentence says, and how far its limit is used, as on a page."""
+    words, kind, of_limit = share_used(subject.judge, verdict, answer)
     sign = " %" if kind == "number" and "{value} %" in words.text else ""
     if kind == "number" and words.measure is not None:
         told = float(subject.judge.answer(words.measure).value)
         answer = replace(answer, value=float(shown_number(told, "", 3)))  # as its sentence says it
     if words.is_need:
         answer = replace(answer, value=rounded_up(float(answer.value), display_unit(kind, "mm")))
-    of_limit = 0.0 if verdict.ok and kind == "length" and words.share is None else share
     return JudgedRow(verdict.heading, verdict.ok, answer, of_limit, sign=sign)
-
-
-def used(answer: Answer) -> float:
-    """Return how far a limit is used, 1.0 where it is met exactly; 0.0 where no plain limit tells, infinite where nothing bounds it."""
-    question = answer.question
-    if not isinstance(question, Constraint) or question.right.leaves:
-        return 0.0
-    value, limit = float(answer.value), float(question.right.from_leaves(dict[Leaf, float]().__getitem__))  # it has none
-    if limit == 0.0:
-        return np.inf if answer.ok is False else 0.0
-    of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))
-    return np.inf if of > 0.0 and by == 0.0 else of / by if np.isfinite(by) else 0.0

@@ -10,7 +10,7 @@ if (!strokes.some((each) => each.path && each.over === undefined)) for (const [o
 }
 /* A column has a row of the program in each load case in which it differs; that of the path that runs is shown. */
 const rowNow = (row) => { const found = row[caseNow()] ?? row; return found >= 0 ? found : undefined; };
-const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: factorOf(unit), ru, why, get values() { return values?.[caseNow()]; }, get row() { return rowNow(row); } }));
+const columns = data.columns.map(([name, unit, row, ru, values]) => ({ name, unit, factor: factorOf(unit), ru, get values() { return values?.[caseNow()]; }, get row() { return rowNow(row); } }));
 /* The situation that is shown: of the place that was gone to, else of the path that runs. */
 let acting = -1;
 const caseNow = () => (acting < 0 ? (data.situationOf[strokes[runs].over] ?? 0) : acting);
@@ -341,8 +341,7 @@ function plotted() {
     const points = curved(values, along, one, present);
     line(points, y, "curve", 2.6, {});
     if (limit) {
-      const fails = (v) => (limit[2] === "below" ? v < limit[0] : v > limit[0]);
-      line(points.map(([s, v]) => [s, fails(v) ? v : NaN]), y, "accent", 3.2, {});
+      line(points.map(([s, v]) => [s, (limit[2] === "below" ? v < limit[0] : v > limit[0]) ? v : NaN]), y, "accent", 3.2, {});
       for (let i = 1; i < points.length; i++) {
         const [[from, v], [to, w]] = points.slice(i - 1, i + 1), a = v - limit[0], b = w - limit[0];
         if (a * b < 0) { const dot = draw(plot, "circle", { r: 4, cx: x(from - (a * (to - from)) / (b - a)), cy: y(limit[0]) }); set(dot, { fill: css("accent") }); }
@@ -355,8 +354,9 @@ function plotted() {
     write(late ? W - R - 5 : L + 5, at + (limit[2] === "below" && at + 20 < H - B ? 15 : at < T + 18 ? 15 : -6), limit[1], { class: "note halo", anchor: late ? "end" : "start" });
   }
   if (data.task) wantedOnCurve(x, y, one);
-  if (!values && one) write(L + 8, T + 18, say("as delivered only: this column is not followed in the page"), { class: "note halo" });
-  byId("column").title = (one?.row === undefined && one?.why) || "";
+  const known = one && one.row === undefined ? say("not followed in the page: known only as delivered") : "";
+  if (!values) write(L + 8, T + 18, known, { class: "note halo" });
+  byId("column").title = known && `${called(one)}: ${known}`;
   if (compares) write(W - R, H - 6, say("dashed: as delivered"), { anchor: "end" });
   reader();
   chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });

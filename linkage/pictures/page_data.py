@@ -34,7 +34,7 @@ from .labels import offsets
 from .layout import label_free, props
 from .page_file import EVENTS, MACHINE, START, PageData, page_part, page_text, tight
 from .page_forces import force_arrows, page_situations, situated_requests, situated_rows
-from .page_judge import LiveQuestions, course_data, rule_key, unit_data
+from .page_judge import LiveQuestions, course_data, rule_key, share_used, unit_data
 from .scene import DrawnMark, Plate, Scene, SlideTrack
 from .shown_values import WHOLE, Limit, as_curve, check_poses, limit_of, named_points, typeset
 from .strokes import ends_where_begun, is_turn
@@ -143,14 +143,15 @@ class PageRequests:
         return judged, drawn | judged
 
     @cached_property
-    def columns_in_time(self) -> dict[int, dict[str, Column]]:
-        """The columns by name at even instants of the paths in time, by the numbers of their situations, beside that of the run."""
+    def columns_delivered(self) -> dict[int, dict[str, Column]]:
+        """The columns by name, by the numbers of situations beside that of the run: of paths in time at even instants."""
         found = dict[int, dict[str, Column]]()
         for number, each in enumerate(self.situations):
-            instants = each.motion._instants if each.motion is not None and number else None
+            motion, instants = self.motion, each.motion._instants if each.motion is not None else None
             if each.motion is not None and instants is not None:
                 shown = instants.shares(np.linspace(0.0, 1.0, self.count))
                 motion = Motion(self.plan, self.machine.dimensions, shown.strokes, "nan", over=each.motion.over, instants=shown)
+            if number and (instants is not None or self.motion.time is None):
                 with unwarned():
                     columns = [as_curve(one)[0] for one in results(self.machine, motion, each.case or PLAIN_CASE)]
                 found[number] = {column.name: column for column in columns}
@@ -434,12 +435,12 @@ def event_data(events: Sequence[Any]) -> list[list[object]]:
 
 
 def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequests) -> list[Any]:
-    """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values, and why it has none.
+    """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values.
 
-    Where it differs between situations it has a row in each. Its values are by the numbers of situations: of the run of the page, and of
-    paths in time that its program does not follow.
+    Where it differs between situations it has a row in each. Its values are by the numbers of situations that its program does not follow:
+    over the run of the page in each load case, and over paths in time.
     """
-    column, _, why = found
+    column, _, _ = found
     with language("ru"):
         russian = typeset(heading_of(name))
     shown, start = typeset(name), [typeset(name), typeset(shown_in(column.unit))]
@@ -448,13 +449,12 @@ def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequ
     if isinstance(places, int) or (places and -1 not in places):
         return [*start, places, *([russian] if russian != shown else [])]
     lost = [k for k in range(count) if places is None or places[k] < 0]
-    reasons = [live.left_out[key] for key in (f"column {name} {k}" for k in lost) if key in live.left_out]
     values = dict[int, list[float | None]]()
     for k in lost:
-        given = requests.columns_in_time.get(k, {}).get(name) if k else column
+        given = requests.columns_delivered.get(k, {}).get(name) if k else column
         whole = [] if given is None else np.broadcast_to(np.asarray(given.values, float), (requests.count,)).tolist()
         values |= {k: [float(f"{value:.6g}") if np.isfinite(value) else None for value in whole]} if whole else {}
-    return [*start, -1 if places is None else places, russian, values, why or reasons[0]]
+    return [*start, -1 if places is None else places, russian, values]
 
 
 def limit_data(requests: PageRequests, name: str) -> list[Any]:
@@ -694,6 +694,14 @@ def verdicts_shown(requests: PageRequests) -> PageData:
         with language("ru"):
             headings = members[name].headed, translated(members[name].headed)
         groups[name] = [typeset(text.format(name=name)) for text in headings]
-    of_poses = [isinstance(each.answer, Answer) and bool(each.answer.strokes) for each in verdicts]
-    facts = [[each.member, rule_key(each.rule, each.member), int(is_one)] for each, is_one in zip(verdicts, of_poses, strict=True)]
-    return shown | {"facts": facts, "groups": groups}
+    return shown | {"facts": [fact_data(requests, each) for each in verdicts], "groups": groups}
+
+
+def fact_data(requests: PageRequests, verdict: Verdict) -> list[Any]:
+    """Return the member that says a verdict, its key, whether it is of poses, and how far its limit is used, where it tells."""
+    found: list[Any] = [verdict.member, rule_key(verdict.rule, verdict.member)]
+    if not isinstance(verdict.answer, Answer):
+        return [*found, 0]
+    words, _, share = share_used(requests.judge, verdict, verdict.answer)
+    tells = np.isfinite(share) and (share > 0.0 or words.share is not None)
+    return [*found, int(bool(verdict.answer.strokes)), *([max(float(f"{share:.7g}"), 0.0)] if tells else [])]

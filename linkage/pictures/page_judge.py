@@ -13,9 +13,23 @@ from ..errors import LawError, LinkageError, UntracedError, ensure, unwarned
 from ..language import heading_of, language, translated
 from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
 from ..mechanism import Mechanism
-from ..motion import Column, Condition, HasVerdicts, Instants, LiveText, Motion, PageWords, Request, RequestLike, least, most, speakers
+from ..motion import (
+    Answer,
+    Column,
+    Condition,
+    HasVerdicts,
+    Instants,
+    LiveText,
+    Motion,
+    PageWords,
+    Request,
+    RequestLike,
+    least,
+    most,
+    speakers,
+)
 from ..motion.judge import Domain, Judge, SearchRow, is_worst_bound, leaf_key, measures_of
-from ..motion.measures import At, Constraint, Integral, Leaf, Measure, conditions_of, dimension_value, strokes_behind
+from ..motion.measures import At, Constraint, Integral, Leaf, Measure, conditions_of, dimension_value, measure_of, strokes_behind
 from ..motion.motion_verdicts import NEAR, rules_of, verdict_questions
 from ..motion.over import ALLOWED
 from ..motion.requests import NodeRequest, bound, is_of_force, situated
@@ -24,6 +38,7 @@ from ..program import Node
 from ..quantities import is_number, quantity
 from ..reports import at_its_rates, is_column
 from ..units import display_unit, factor, shown_in
+from ..verdict import Verdict
 from .page_file import PageData
 from .shown_values import limit_of, typeset
 
@@ -265,6 +280,30 @@ def course_data(instants: Instants) -> PageData:
 def rule_key(rule: str, member: str) -> str:
     """Return the key of a member's rule, with or without the member's name, which it bears where several have it."""
     return f"{member} {rule.removesuffix(f' {member}')}"
+
+
+def share_used(judge: Judge, verdict: Verdict, answer: Answer) -> tuple[PageWords, str, float]:
+    """Return the words of a rule, what it measures, and how far its limit is used; a length that fits uses nothing."""
+    member, key = speakers(judge.plan, HasVerdicts).get(verdict.member), rule_key(verdict.rule, verdict.member)
+    rules = {} if member is None else member.page_words(judge)
+    words = next((each for rule, each in rules.items() if rule_key(rule, verdict.member) == key), PLAIN_WORDS)
+    question = answer.question.left if isinstance(answer.question, Constraint) else answer.question
+    kind = answer.measures or measure_of(judge.plan, question)
+    if words.share is not None:
+        return words, kind, float(judge.answer(words.share).value)
+    return words, kind, 0.0 if verdict.ok and kind == "length" else used(answer)
+
+
+def used(answer: Answer) -> float:
+    """Return how far a limit is used, 1.0 where it is met exactly; 0.0 where no plain limit tells, infinite where nothing bounds it."""
+    question = answer.question
+    if not isinstance(question, Constraint) or question.right.leaves:
+        return 0.0
+    value, limit = float(answer.value), float(question.right.from_leaves(dict[Leaf, float]().__getitem__))  # it has none
+    if limit == 0.0:
+        return np.inf if answer.ok is False else 0.0
+    of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))
+    return np.inf if of > 0.0 and by == 0.0 else of / by if np.isfinite(by) else 0.0
 
 
 def live_unit(plan: Plan, asked: Measure | Constraint) -> PageData:

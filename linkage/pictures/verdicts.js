@@ -51,16 +51,16 @@ function answerText({ rule, unit, words, fails, saysUnit }, each) {
 /* How much of its limit is used, 1 where it is met exactly; not a number where there is no such share. */
 function shareOf({ isLength }, each) {
   if (each.share !== undefined) return max(each.share, 0);
-  if (isLength || !(abs(each.value) >= 0) || !(each.limit > 0)) return NaN;
+  if ((isLength && each.kept) || !(abs(each.value) >= 0) || !(each.limit > 0)) return NaN;
   return each.symbol === "<=" ? max(each.value / each.limit, 0) : each.value > 0 ? each.limit / each.value : NaN;
 }
 /* The delivered verdicts in the language and the units chosen. */
 function delivered() {
   const inUnits = data.verdictsIn[system];
   return data.verdicts.map(([state, rule, text, ru, russian], i) => {
-    const [english, other] = (inUnits && inUnits[i]) || [text, russian || text], [member, key, isOfPoses] = data.facts[i] || ["", "", 0];
+    const [english, other] = (inUnits && inUnits[i]) || [text, russian || text], [member, key, isOfPoses, share] = data.facts[i] || ["", "", 0];
     const isFollowed = state === 2 || byKey.has(key) || rule === "assembly" || rule === "dead points";
-    return { state, key, rule: (language === "ru" && ru) || rule, text: (language === "ru" && other) || english, member, isFollowed, isOfPoses };
+    return { state, key, rule: (language === "ru" && ru) || rule, text: (language === "ru" && other) || english, member, isFollowed, isOfPoses, share };
   });
 }
 
@@ -79,7 +79,7 @@ function verdicts(n = STILL) {
   if (data.task) add(null, say("task"), missWords());
   for (const each of delivered()) {
     const q = byKey.get(each.key), ok = [false, true][each.state];
-    if (!changed) add(ok, each.state === 2 ? "" : each.rule, each.text, { member: each.member, share: q === undefined ? NaN : shareOf(questions[q], answers.found[q]), open: each.state === 3, q });
+    if (!changed) add(ok, each.state === 2 ? "" : each.rule, each.text, { member: each.member, share: each.share ?? NaN, open: each.state === 3, q });
     else if (!each.isFollowed) add(null, each.rule, each.text, { stale: true, open: true });
   }
   const told = new Set(data.facts.map(([, key]) => key));

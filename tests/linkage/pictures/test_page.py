@@ -1365,16 +1365,37 @@ class Rubbing(Hanging):
     counter = None
     Q = None
     rub = PinFriction("O", radius=0.03, coefficient=0.15)
+    half = LoadCase("half", scale={"load": 0.5})
 
 
 def test_what_the_page_does_not_follow_is_named_and_never_green(chromium, written):
-    rules = [each.rule for each in Rubbing().verdicts() if each.is_rule]
-    with Shown(chromium, written(Rubbing())) as shown:
+    rules = {each.rule: each for each in Rubbing().verdicts() if each.is_rule}
+    with Shown(chromium, written(Rubbing()), PHONE) as shown:
         assert "lifting" in rules and "lifting" not in [each["rule"] for each in shown("hydrolinkage.data.judge.questions")]
+        found = {each["rule"]: each for each in shown("hydrolinkage.verdicts()")}
+        assert found["lifting"]["share"] == pytest.approx(1.0 / rules["lifting"].answer.value, rel=1e-6)  # as a report has it
+        columns = shown("hydrolinkage.data.columns")
+        (place,) = (k for k, each in enumerate(columns) if each[0] == "pressure")
+        motion = Rubbing().sweep(shown("hydrolinkage.data.count"))
+        for k, case in enumerate(shown("hydrolinkage.data.cases")):
+            (own,) = (each for each in results(Rubbing(), motion, case or "plain") if each.name == "pressure")
+            assert_allclose(columns[place][4][str(k)], own.values, rtol=1e-5)
+        shown.tab.select_option("#column", str(place))
+        known, curve = "not followed in the page: known only as delivered", "document.getElementById('curve').textContent"
+        for case in range(len(shown("hydrolinkage.data.cases"))):
+            shown.tab.select_option("#case", str(case))
+            shown.settle()
+            assert shown("document.getElementById('column').title") == f"pressure: {known}"
+            assert known not in shown(curve)
+            assert shown.text("#value").endswith("bar")
+        shown.tab.select_option("#case", "0")
         assert shown("(given) => hydrolinkage.set(given)", {"design": {"load.mass": 90.0}})
         shown.settle()
         found = {each["rule"]: each for each in shown("hydrolinkage.verdicts()")}
         assert found["lifting"]["ok"] is None and found["lifting"]["stale"]
+        right = "each.getBoundingClientRect().right"
+        far = f"((list) => [...list].map((each) => {right}))(document.querySelectorAll('#curve, #curve text'))"
+        assert known in shown(curve) and shown(far)[0] >= max(shown(far)[1:])
         assert sum("do not follow your changes" in each for each in shown.text("#groups").splitlines()) == 1
         assert shown("document.getElementById('badge').dataset.fails") == "0"
         assert re.fullmatch(r"the live verdicts hold; as delivered or without an answer: \d+", shown.text("#badge"))

@@ -481,7 +481,7 @@ class OilLine(PumpLine, GasLine):
 
     # -- where it is filled, and the length that it gives ------------------------------------------------------
 
-    def strokes_told(self, strokes: Sequence[str]) -> Mapping[str, object]:
+    def stroke_arguments(self, strokes: Sequence[str]) -> Mapping[str, object]:
         return self.at if isinstance(self.at, Mapping) else dict.fromkeys(strokes, self.at)
 
     def strokes_filled(self, strokes: Sequence[str]) -> dict[str, float]:

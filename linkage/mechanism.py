@@ -213,7 +213,7 @@ class Mechanism(Shown, metaclass=MechanismType):
                 raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}", member=name) from None
         check(cls.plan)
         for element in cls.plan.of_kind(ForceElement).values():
-            require_kinds(cls.plan, element.strokes_told([*cls.plan.strokes]))
+            require_kinds(cls.plan, element.stroke_arguments([*cls.plan.strokes]))
         if cls.plan.of_kind(Part):
             check_circuits(cls.plan.members, cls.__name__)
         check_together(cls.plan.of_kind(ForceElement), cls.plan.members, cls.__name__)

@@ -284,7 +284,7 @@ class ForceLines:
             ensure(not line.changes_shares, shared)
             areas = [(each.ends, self._area(line, each)) for each in line.cylinders]
             levers[line] = {name: sympy.Add(*(area * self._chains[name].growths[ends] for ends, area in areas)) for name in strokes}
-        needs = {stroke: self.listing.names.force(f"Q_{stroke}") for stroke in strokes}
+        needs = {stroke: self.listing.names.scalar(f"Q_{stroke}") for stroke in strokes}
         while left:
             holding = {stroke: [line for line in left if levers[line][stroke] != 0] for stroke in needs}
             block, rows = next(((held, [stroke]) for stroke, held in holding.items() if len(held) == 1), (list(left), list(needs)))
@@ -353,13 +353,13 @@ class ForceLines:
         return self._write(name, scalar(value), unit)
 
     def _write(self, name: str, value: Term, unit: str) -> Term:
-        symbol = self.listing.names.force(name)
+        symbol = self.listing.names.scalar(name)
         if symbol not in {each.lhs for each in self.lines}:
             self.lines.append(ListingLine(symbol, whole_numbers(value.expr), unit_named(unit)))
         return Term(symbol)
 
     def given(self, name: str, value: Callable[[Motion], Numbers], unit: str = "") -> Scalar:
-        symbol = self.listing.names.force(name)
+        symbol = self.listing.names.scalar(name)
         self.givens.append(GivenNumber(symbol, value, unit_named(unit)))
         return Term(symbol)
 

@@ -229,7 +229,7 @@ class Listing(Where):
                     symbol = self.names.quantity(named)
                 else:
                     label = self._labels[id(member)].name
-                    symbol = self.names.force(label, "angle") if found.unit == ANGLE else self.names.length(label)
+                    symbol = self.names.scalar(label, "angle") if found.unit == ANGLE else self.names.length(label)
                 self.lines.append(ListingLine(symbol, found.expr, found.unit))
                 found = Term(symbol, found.unit)
             self._terms[key] = found
@@ -254,7 +254,7 @@ class Listing(Where):
     def at_pose(self, quantity: Reference, strokes: Mapping[str, float]) -> Term:
         """Return the symbol of a quantity at one pose of the strokes: a given number."""
         found = AtPose(cast(Quantity, quantity), strokes)
-        symbol = self.names.force(f"{joined_names(*map(name_of, found.of.parts()))}_0")
+        symbol = self.names.scalar(f"{joined_names(*map(name_of, found.of.parts()))}_0")
         self.givens.append(GivenNumber(symbol, lambda motion: motion.value(found), LENGTH))
         return Term(symbol, LENGTH)
 

@@ -219,7 +219,7 @@ class SymbolNames:
         """Return the symbol of a transfer ratio: I_G for dG_y/dS."""
         return sympy.Symbol(self._text(("ratio", point), f"I_{point}", f"I_{{{self._scalar_latex(point)}}}"), real=True)
 
-    def force(self, name: str, kind: str = "force") -> sympy.Symbol:
+    def scalar(self, name: str, kind: str = "force") -> sympy.Symbol:
         """Return the symbol of a scalar that the equations of forces bring: P_load, Q_S, T_lift; or of an "angle" of a step: OAB."""
         return sympy.Symbol(self._text((kind, name), name, self._scalar_latex(name)), real=True)
 

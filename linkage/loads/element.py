@@ -402,7 +402,7 @@ class ForceElement(Jointed):
         """
         return ()
 
-    def strokes_told(self, strokes: Sequence[str]) -> Mapping[str, object]:
+    def stroke_arguments(self, strokes: Sequence[str]) -> Mapping[str, object]:
         """Return the values of a class's strokes that it is given [SI], by the names of these or of its own parameters.
 
         Parameters

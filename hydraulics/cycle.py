@@ -356,8 +356,10 @@ def cycle_over(pump: ForceElement, place: Any, situation: Acting, label: str) ->
 
 def accelerates_masses(plan: Plan, instants: Instants) -> bool:
     """Return whether a path in time accelerates masses, whose inertia the demands on a pump leave out."""
+    if not has_masses(plan):
+        return False
     within = instants.at_times(instants.breaks[:-1] + np.diff(instants.breaks) / 3.0)
-    return has_masses(plan) and any(bool(np.any(each)) for each in within.accelerations.values())
+    return any(map(np.any, within.accelerations.values()))
 
 
 def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits) -> list[Stretch]:

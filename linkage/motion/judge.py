@@ -1002,10 +1002,10 @@ def is_worst_bound(question: object) -> bool:
     """Return whether a question is a measure alone, or bounds the worst of one: then each of its pieces must keep it by itself."""
     if isinstance(question, Leaf):
         return True
-    return (
-        isinstance(question, Constraint) and isinstance(question.left, Leaf) and is_at_poses(question.right) | (not question.right.leaves)
-        and (question.left.sense, question.symbol) in ((-1.0, ">="), (1.0, "<="))
-    )  # fmt: skip
+    if not isinstance(question, Constraint) or not isinstance(question.left, Leaf):
+        return False
+    is_known = all(isinstance(leaf, At) for leaf in question.right.leaves)
+    return is_known and (question.left.sense, question.symbol) in ((-1.0, ">="), (1.0, "<="))
 
 
 def worst_pieces(pieces: Sequence[Candidate]) -> list[Candidate]:

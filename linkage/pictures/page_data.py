@@ -242,7 +242,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     machine, plan = requests.machine, requests.plan
     dims = dimension_data(requests, live)
     names = [each[0] for each in dims]
-    columns = [column_data(name, each, live, requests) for name, each in requests.columns.items()]
+    columns = [column_data(name, column, live, requests) for name, (column, _, _) in requests.columns.items()]
     rows, index = {name: each[0] for name, each in live.rows.items()}, {name: place for place, name in enumerate(plan.points)}
     lines = {track.name: [rows[f"track {track.name} {k}"] for k in range(4)] for track in requests.scene.tracks}
     run, strokes, judge = requests.run, stroke_data(requests), requests.questions.data(live)
@@ -434,13 +434,12 @@ def event_data(events: Sequence[Any]) -> list[list[object]]:
     return [[group[0].time, "; ".join([str(group[0]), *(each.sentence for each in group[1:])])] for group in found]
 
 
-def column_data(name: str, found: LiveColumn, live: LiveText, requests: PageRequests) -> list[Any]:
+def column_data(name: str, column: Column, live: LiveText, requests: PageRequests) -> list[Any]:
     """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values.
 
     Where it differs between situations it has a row in each. Its values are by the numbers of situations that its program does not follow:
     over the run of the page in each load case, and over paths in time.
     """
-    column, _, _ = found
     with language("ru"):
         russian = typeset(heading_of(name))
     shown, start = typeset(name), [typeset(name), typeset(shown_in(column.unit))]

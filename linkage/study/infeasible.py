@@ -14,7 +14,7 @@ from ..mechanism import Mechanism
 from ..motion.measures import Constraint
 from ..program import FloatArray
 from ..units import show
-from .optimum import in_units, multipliers, unit_of_constraint
+from .optimum import constraint_words, in_units, multipliers, unit_of_constraint
 from .problem import COARSE, Problem, is_still
 from .sampling import no_value
 from .solver import Local, SearchEnd, scales_of
@@ -86,7 +86,7 @@ def infeasible_error(problem: Problem, ended: Sequence[SearchEnd], looked: Mappi
         nowhere = [each for each in nowhere if look.lost_of(each.margin)[0]]
     if nowhere:
         why = " and ".join(no_value(problem.plan, leaf) for leaf in nowhere[0].margin.leaves)
-        what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why}"
+        what = f"{constraint_words(problem.plan, nowhere[0])} is kept by no design that was found, for {why}"
         return StudyError(f"{title}: {what}. Ask for what has a value there, or widen vary=.")
     tried = [each for found in reached[:TRIED] if (each := given_way(problem, found, problem.constraints))]
     if not tried:
@@ -98,7 +98,7 @@ def infeasible_error(problem: Problem, ended: Sequence[SearchEnd], looked: Mappi
     if not said:
         why = " and ".join(no_value(problem.plan, leaf) for each in problem.objectives for leaf in each.leaves)
         return StudyError(f"{title}: of all designs that were found {why}. Ask for what has a value there, or take vary= narrower.")
-    limits = ", ".join(shown(problem, each) for each in pulling)
+    limits = ", ".join(constraint_words(problem.plan, each) for each in pulling)
     against = f" It pulls against {limits}." if pulling else ""
     alternatives = alternatives_to(problem, best, looked.get(best.found.combination))
     instead = "; or ".join(each.sentence for each in alternatives)
@@ -108,11 +108,6 @@ def infeasible_error(problem: Problem, ended: Sequence[SearchEnd], looked: Mappi
         f"{text} Give way there by so much, or widen vary=.", best.machine, relaxations,
         [*(each.condition for each in relaxations), *pulling], alternatives,
     )  # fmt: skip
-
-
-def shown(problem: Problem, constraint: Constraint) -> str:
-    """Return a condition as text, its number in its unit."""
-    return in_units(constraint, unit_of_constraint(problem.plan, constraint))
 
 
 @immutable

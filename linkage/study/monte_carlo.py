@@ -20,7 +20,7 @@ from ..units import display_unit
 from ..vectors import FloatArray, Index, Mask, Numbers
 from .checks import check_in_count
 from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
-from .optimum import in_units, unit_of_constraint
+from .optimum import constraint_words
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
 
 Task = TypeVar("Task")
@@ -145,12 +145,11 @@ class MonteCarlo:
         plan = self.machine.plan
         tolerances = ", ".join(tolerance_words(plan, name, each) for name, each in self.tolerances.items())
         lines = [f"{plan.title}, {self.count} machines with {tolerances}; {self.at}."]
-        measures = [each for each in (*self.of.values(), *(each.margin for each in self.conditions)) if isinstance(each, Measure)]
-        if any(map(is_of_force, [*self.of.values(), *(leaf.quantity for each in measures for leaf in each.leaves)])):
+        if any(map(is_of_force, [*self.of.values(), *(leaf.quantity for leaf in leaves_measured(self.of, self.conditions))])):
             lines.append("Forces for which no case or direction is asked are at rest, under the machine's own loads.")
         if self.assembled < 1.0:
             lines.append(f"{share_words(1.0 - self.assembled)} cannot be assembled everywhere and count as lost.")
-        shown = {str(each): in_units(each, unit_of_constraint(plan, each)) for each in self.conditions}
+        shown = {str(each): constraint_words(plan, each) for each in self.conditions}
         lines += [f"{share_words(share)} keep {shown[words]}." for words, share in self.kept.items()]
         return "\n".join([*lines, f"{share_words(self.yield_rate)} are good."] if self.kept else lines)
 
@@ -257,6 +256,12 @@ def limits_listed(machine: Mechanism, given: object) -> tuple[Constraint, ...]:
     return found
 
 
+def leaves_measured(asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> list[Leaf]:
+    """Return the leaves of all measures that are asked for and of the conditions, each once."""
+    measures = [each for each in asked.values() if isinstance(each, Measure)] + [each.margin for each in conditions]
+    return list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
+
+
 # The designs, block by block, and what is kept of them: of the results themselves nothing.
 
 
@@ -276,8 +281,7 @@ class MonteCarloRun:
 
     def measure(self, asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> None:
         """Measure quantities and conditions of all designs."""
-        measures = [each for each in asked.values() if isinstance(each, Measure)] + [each.margin for each in conditions]
-        leaves = list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
+        leaves = leaves_measured(asked, conditions)
         self._leaves = {leaf: fold_start(leaf) for leaf in leaves if leaf.sense}
         every = [each for each in asked.values() if not isinstance(each, Measure)] + [leaf.quantity for leaf in self._leaves]
         quantities = self._asked = {self._key(each): each for each in every}

@@ -683,6 +683,11 @@ def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
     return display_unit(measure_of(plan, quantity), "mm")
 
 
+def constraint_words(plan: Plan, constraint: Constraint) -> str:
+    """Return a constraint as text, its number in its unit."""
+    return in_units(constraint, unit_of_constraint(plan, constraint))
+
+
 def in_units(constraint: Constraint, units: str) -> str:
     """Return a constraint as text, its number in a unit."""
     sides = [show(side.value, units) if isinstance(side, FixedNumber) else str(side) for side in constraint.compared]

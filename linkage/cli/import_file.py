@@ -15,7 +15,7 @@ from .settings import pair
 @Command(
     "import",
     "a drawing, a table of points, or a file of the board, Linkage, PMKS, PMKS+ or pylinkage as a machine",
-    option("file", metavar="FILE", help=".csv, .linkage2, .txt, .json, .dxf, or a share address of PMKS+ in quotes"),
+    option("file", metavar="FILE", help=".csv, .linkage2, .txt, .json, .dxf, or a share address of PMKS or PMKS+ in quotes"),
     option("-o", "--output", metavar="FILE", help=".toml or .py, .json (board), .csv, .linkage2, .txt (PMKS) (default NAME.toml)"),
     option("--scale", metavar="1mm", help="what 1 of the file is, where it has no unit or another one is meant"),
     option("--drive", nargs=2, action="append", metavar=("O", "A"), help="a crank: a fixed pin, and a pin of the link that turns about it"),

@@ -44,7 +44,7 @@ def read_sketch(
     ----------
     file : str or path
         A table of points (.csv), a file of Linkage (.linkage2), PMKS (.txt), the board, PMKS+ or pylinkage (.json), a drawing (.dxf);
-        or the text of a share address of PMKS+.
+        or the text of a share address of PMKS or PMKS+.
     scale : float, optional
         What 1 of the file is [m]. By default as the file says.
     drives, cylinders : sequence of (str, str), optional
@@ -150,6 +150,8 @@ def read_address(found: FoundMachine, text: str) -> None:
         read_json(found, address_data(found, json_in_address(found, text)))
     elif re.match(r"j=", query):
         read_old_address(found, query)
+    elif "mech=" in query:
+        read_pmks_text(found, query.partition("mech=")[2].partition("&")[0])
     else:
         holds = query if WEB.match(query) is None else ""
         found.ensure(holds, "there is no machine behind the address; copy it whole, with what stands behind its ?.")

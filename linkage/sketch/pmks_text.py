@@ -13,6 +13,8 @@ from .machine_sketch import MachineSketch, Place, line_angle, written
 
 FRAME = ("ground", "gnd", "grnd", "grd")
 KINDS = ("R", "P", "RP", "G")
+FLAGS = re.compile(r"[tf]{4}|[-+]{4}")
+"""The last word of a joint: whether path, velocity and acceleration are shown, and whether it drives; + and - are the older letters."""
 
 
 @dataclass
@@ -85,13 +87,14 @@ def joint_of(found: FoundMachine, line: str, number: int) -> PmksJoint:
     found.ensure(places and 1 <= places[-1] <= len(words) - 3, "links, R, P, RP or G, then x and y are expected, ground,input,R,0,0.")
     names, kind, rest = words[: places[-1]], words[places[-1]].upper(), words[places[-1] + 1 :]
     x, y = (found.number(word, name) for word, name in zip(rest, "xy", strict=False))
+    flags = rest.pop() if FLAGS.fullmatch(rest[-1]) else ""
     has_angle = len(rest) > 2 and re.match(r"[-+.\d]", rest[2]) is not None
     found.ensure(kind == "R" or len(names) == len({*names}) == 2, f"{kind} joins two links.")
     found.ensure(kind != "P" or not all(map(is_frame, names)), "both links of P are the frame; name the link that slides.")
     found.ensure(kind in ("R", "G") or has_angle, f"{kind} has the angle of its slide behind x and y [deg].")
     angle = radians(found.number(rest[2], "the angle")) if has_angle else 0.0
     key = ascii_uppercase[number] if number < len(ascii_uppercase) else f"P{number + 1}"
-    return PmksJoint(key, kind, names, (x, y), angle, rest[-1][3:4] == "t" and {*rest[-1]} <= {*"tf"})
+    return PmksJoint(key, kind, names, (x, y), angle, flags[3:] in {"t", "+"})
 
 
 def is_frame(name: str) -> bool:

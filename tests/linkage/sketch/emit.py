@@ -2,6 +2,7 @@
 
 import json
 from math import atan2, cos, dist, sin
+from urllib.parse import quote
 
 from tests.linkage.sketch.plans import Plan
 
@@ -68,22 +69,28 @@ def connector(names, name):
     return f'<connector id="{names.index(name)}"/>'
 
 
-def pmks(plan: Plan):
-    """Return text of PMKS; None for a plan with a cylinder."""
+def pmks(plan: Plan, letters="tf"):
+    """Return text of PMKS, with its letters for yes and no; None for a plan with a cylinder."""
     if plan.cylinder:
         return None
-    lines = []
+    (yes, no), lines = letters, []
     for name, (x, y) in plan.points.items():
         links = ["ground"] * (name in plan.fixed) + [f"n{number}" for number, link in enumerate(plan.links) if name in link]
-        lines.append(f"{' '.join(links)} R {x!r} {y!r} 0 tff{'t' if name == plan.crank[0] else 'f'}")
+        lines.append(f"{' '.join(links)} R {x!r} {y!r} 0 {yes}{no}{no}{yes if name == plan.crank[0] else no}")
     for point, along in plan.slides:
         x, y = plan.points[point]
         rider = next((f"n{number}" for number, link in enumerate(plan.links) if point in link), "ground")
         slot = along[0] if isinstance(along, tuple) else along
         carrier = next((f"n{number}" for number, link in enumerate(plan.links) if isinstance(slot, str) and {*slot} <= {*link}), "ground")
         kind, angle = "P" if point in plan.rigid else "RP", angle_of(plan, along) * 180.0 / 3.141592653589793
-        lines.append(f"{carrier} {rider} {kind} {x!r} {y!r} {angle!r} ffff")
+        lines.append(f"{carrier} {rider} {kind} {x!r} {y!r} {angle!r} {4 * no}")
     return "\n".join(lines)
+
+
+def pmks_address(plan: Plan):
+    """Return a share address of PMKS with its older letters, + and -; None for a plan with a cylinder."""
+    joints = pmks(plan, "+-")
+    return joints and f"https://designengrlab.github.io/PMKS/pmks.html?set=s5&mech={quote(joints).replace('%0A', '|')}|&debug=1"
 
 
 def angle_of(plan: Plan, along):
@@ -328,7 +335,7 @@ def dxf(plan: Plan, path):
 
 FORMATS = {
     "csv": (csv, ".csv", None), "linkage2": (linkage2, ".linkage2", None), "pmks": (pmks, ".txt", 1e-3), "old": (old_address, "", None),
-    "first": (first_address, "", None),
+    "first": (first_address, "", None), "pmks address": (pmks_address, ".txt", 1e-3),
     "short": (short_body, "", None), "digest": (lambda plan: short_body(plan, True), "", None), "json": (plus_json, ".json", 1e-3),
     "bodies": (plus_bodies, ".json", None), "pylinkage": (pylinkage, ".json", 1e-3), "dyads": (pylinkage_dyads, ".json", 1e-3),
 }  # fmt: skip

@@ -66,8 +66,9 @@ def solve_groups(plan: Plan, designs: Mapping[str, Numbers], strokes: Mapping[st
         stops = ()
     inputs: dict[str, FloatArray] = {}
     for newton, u in zip(newtons, pins, strict=True):
-        sine = sines(newton, {**designs, **strokes, **inputs}, strokes, u.reshape(-1, *shape))
-        inputs |= dict(zip(newton.names, u.reshape(-1, *shape), strict=True))
+        places = u.reshape(len(newton.names), *shape)
+        sine = sines(newton, {**designs, **strokes, **inputs}, strokes, places)
+        inputs |= dict(zip(newton.names, places, strict=True))
         inputs[newton.group.inputs[-1]] = sine
     return GroupSolution(inputs, np.broadcast_to(crossed.reshape(shape), shape), stops)
 

@@ -90,6 +90,7 @@ def test_designs_at_once_are_designs_one_by_one():
         single = StephensonTwo(DF=float(rod), EG=float(rocker)).sweep(25)
         assert_allclose(batch["G"][:, row], single["G"], rtol=0, atol=1e-12)
         assert_allclose(batch.ratio("psi")[row], single.ratio("psi"), rtol=1e-9)
+    assert StephensonTwo(DF=rods).at(phi=[]).ratio("G").shape == (2, 4, 0)
 
 
 def test_a_changed_design_is_the_same_linkage_from_the_other_end():

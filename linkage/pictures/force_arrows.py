@@ -11,7 +11,7 @@ import numpy as np
 from ..checks import require_type
 from ..errors import AssemblyError, SingularError, ensure, unknown, unwarned
 from ..language import noted, said, translated
-from ..loads import Case, ForceElement, LoadCase, Loads
+from ..loads import Case, LoadCase, Loads
 from ..motion import Motion
 from ..plan.members import FRAME
 from ..program import FloatArray
@@ -19,8 +19,7 @@ from ..reports import case_along, in_case_words
 from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
-from .scene import centre_beside
-from .shapes import left_of
+from .drawn_loads import centre_of_mass, drawn_together, on_its_line, resultant
 from .shown_values import bodies_shown, short_name
 from .strokes import pose_words
 
@@ -183,32 +182,16 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
     What the ground puts on a vehicle goes by the name of its support. Several forces of an element on a body go as their resultant, on
     its line of action, those of a rope each at its point; a couple as a moment amid its points.
     """
-    groups: dict[tuple[str, str, str], list[tuple[FloatArray, FloatArray]]] = {}
     plan = forces.found.motion.plan
-    elements = plan.of_kind(ForceElement).items()
-    ropes = {name for name, each in elements if any(glyph.drawn_as == "rope" for glyph in each.glyphs(plan.members))}
     ground = {each.element for each in forces.found._ground}
-    for body, acting in forces.found._loads:
-        key = acting.element.partition("(")[0], body, acting.point if acting.element in ropes else ""
-        groups.setdefault(key, []).append((forces.place(acting.point), forces.one(acting.force)))
-    for (element, body, _), parts in groups.items():
+    for (element, body, _), loads in drawn_together(forces.found, [load for _, load in forces.found._loads]).items():
         colour = GROUND if element in ground else LOAD
-        places, each_of = np.array([place for place, _ in parts]), np.array([force for _, force in parts])
-        force, middle = each_of.sum(axis=0), places.mean(axis=0)
-        arms = places - middle
-        moment = float((arms[:, 0] * each_of[:, 1] - arms[:, 1] * each_of[:, 0]).sum())
-        square = float(force @ force)
-        if square <= 1e-18 * float((each_of**2).sum()):
-            yield element, body, middle, np.zeros(2), moment, colour
+        acting = [(forces.place(each.point), forces.one(each.force)) for each in loads]
+        force, moment, place = resultant(acting)
+        if float(force @ force) <= 1e-18 * sum(float(each @ each) for _, each in acting):
+            yield element, body, place, np.zeros(2), float(moment), colour
         else:
-            place = middle + moment * left_of(force) / -square
-            beside = centre_beside(plan, element)
-            if beside is not None:  # the centre of a body's own mass that is declared beside its points
-                (P, Q), away = (forces.place(name) for name in beside[:2]), beside[2]
-                along = (Q - P) / np.hypot(*(Q - P))
-                centre = P + away[0] * along + away[1] * left_of(along)
-                place = place + force * float((centre - place) @ force) / square
-            yield element, body, place, force, 0.0, colour
+            yield element, body, on_its_line(force, moment, place, centre_of_mass(forces.place, plan, element)), force, 0.0, colour
 
 
 def drawn_body(found: PinForces, name: str) -> str:

@@ -15,7 +15,7 @@ const columns = data.columns.map(([name, unit, row, ru, values]) => ({ name, uni
 let acting = -1;
 const caseNow = () => (acting < 0 ? (data.situationOf[strokes[runs].over] ?? 0) : acting);
 const caseTitle = (name) => (data.cases.some(Boolean) ? name || say("own loads") : "");
-for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y", "couple"]) if (each[name]?.length) {
+for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y", "couple", "atX", "atY"]) if (each[name]?.length) {
   const row = each[name];
   Object.defineProperty(each, name, { get: () => rowNow(row) });
 }
@@ -172,11 +172,11 @@ function arrow(each) {
   const number = label(point, "halo force", FORCE_FONT, 12, `color-mix(in srgb, ${colour} 60%, var(--ink))`);
   on(line, "pointerover", () => { title.textContent = `${number.said.split(" ")[0]} ${actsText(each)}`; });
   return (at) => {
-    if (isCouple) { about(each, at[point], line, number); return; }
+    if (isCouple) { about(each, actsAt(each, at), line, number); return; }
     const { x, y } = each, k = pull.scale, f = [pose.values[x]?.[0] * k, -pose.values[y]?.[0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!showsForces || !(long > 1)) { set(line, { d: "" }); number.said = ""; return; }
     /* The ground cannot pull: there the machine tips. */
-    const d = [f[0] / long, f[1] / long], tint = !load && by === undefined && f[1] > 0.5 ? css("hot") : colour, from = centred(each, at), tip = [from[0] + f[0], from[1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
+    const d = [f[0] / long, f[1] / long], tint = !load && by === undefined && f[1] > 0.5 ? css("hot") : colour, from = actsAt(each, at), tip = [from[0] + f[0], from[1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
     set(line, { d: broken([from, neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]), fill: tint, stroke: tint });
     const force = shown(hypot(pose.values[x][0], pose.values[y][0]), data.force, 3);
     Object.assign(number, { said: touched.includes(point) ? `${force} ${actsText(each)}` : force, anchor: tip, way: d });
@@ -192,12 +192,8 @@ function about(each, [x, y], line, number) {
   const couple = shown(abs(size), data.moment, 3);
   Object.assign(number, { said: !seen ? "" : touched.includes(each.point) ? `${couple} ${actsText(each)}` : couple, anchor: on(0, r), way: [0, -1] });
 }
-/* Where a load acts: at its point, or at the centre of a mass beside it. */
-function centred({ point, beside }, at) {
-  if (!beside) return at[point];
-  const [to, along, left] = beside, [x, y] = spot(pose, point, 0), [u, v] = spot(pose, to, 0), r = hypot(u - x, v - y), dx = (u - x) / r, dy = (v - y) / r;
-  return px(x + along * dx - left * dy, y + along * dy + left * dx);
-}
+/* Where a load acts: at its point, or at a place of its own in a body. */
+const actsAt = ({ point, atX, atY }, at) => (atX === undefined ? at[point] : px(pose.values[atX][0], pose.values[atY][0]));
 const pull = { scale: 0, most: 0 };
 function pullScale() {
   pull.most = 0;

@@ -269,7 +269,6 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "arrows": [
             {"point": index[arrow.point], **parts, "on": arrow.on}
             | ({"by": "" if arrow.by == FRAME else arrow.by} if arrow.by else {"load": 1} if arrow.is_load else {})
-            | ({"beside": [index[centre[1]], *centre[2]]} if (centre := arrow.centre) else {})
             for k, arrow in enumerate(requests.arrows)
             for parts in [{axis: situated_rows(f"arrow {k} {axis}", live, len(requests.situations)) for axis in arrow.parts}]
             if None not in parts.values()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple, TypeAlias, TypeVar, cast
@@ -10,32 +10,42 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar, cast
 import numpy as np
 
 from ..errors import LinkageError, UntracedError, unwarned
-from ..loads import PLAIN, PLAIN_CASE, Acting, Case
+from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement, Load
 from ..mechanism import Mechanism
 from ..motion import Judge, LiveText, Motion, Request
 from ..motion.requests import bound
 from ..program import FloatArray
 from ..reports import Run, at_its_rates, case_shown, request_in_case
-from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, applied_loads, ground_loads, pin_force, pin_forces, rates_in
+from ..statics import (
+    AnyMotion,
+    JointForce,
+    LawRequest,
+    PinForces,
+    TracedMotion,
+    applied_loads,
+    ground_loads,
+    pin_force,
+    pin_forces,
+    rates_in,
+)
 from ..statics.applied import case_of
-from .scene import centre_beside
+from .drawn_loads import centre_beside, centre_of_mass, drawn_together, on_its_line, resultant
 from .shown_values import bodies_shown, short_name
 
 AnyRequest = TypeVar("AnyRequest")
-Centre: TypeAlias = tuple[str, str, tuple[float, float]] | None
+LoadKey: TypeAlias = tuple[str, str, tuple[str, ...]]
 
 
 class PageArrow(NamedTuple):
-    """A force that a page can draw: its point, its parts [N], whether it is a load, its centre where it acts beside its point.
+    """A force that a page can draw: its point, its parts [N], whether it is a load.
 
-    The couple of a joint [N m] is its one part. `on` is the body on which it acts and `by` the one that it comes from; of a load and of
-    the ground's push `on` is the name, `by` "".
+    The parts of its place [m] are among them where that is beside the point; of a couple its size [N m] is. `on` is the body on which it
+    acts and `by` the one that it comes from; of a load and of the ground's push `on` is the name, `by` "".
     """
 
     point: str
     parts: dict[str, Request]
     is_load: bool
-    centre: Centre
     on: str
     by: str
 
@@ -79,17 +89,29 @@ def situated_rows(name: str, live: LiveText, count: int) -> int | list[int] | No
     return (found[0] if found[0] >= 0 else None) if len(set(found)) == 1 else found
 
 
-def load_part(kind: str, name: Any, axis: int, motion: AnyMotion, acting: Acting) -> FloatArray:
-    """Return a part of the ground's force, by its place, or of an element's loads at a point, over a motion [N].
+def load_part(kind: str, name: Any, part: str, motion: AnyMotion, acting: Acting) -> FloatArray:
+    """Return a part of the ground's force, by its place, or of an element's loads on a body, over a motion: x, y [N], couple [N m].
 
-    At the point "" it is all of the element's loads.
+    `atX` and `atY` are where the loads are drawn [m].
     """
     if kind == "ground":
-        return cast(FloatArray, ground_loads(motion, acting)[name[0]].force[axis])
-    element, point = name
-    applied = applied_loads(motion, acting, rates_in(motion, acting)).loads
-    loads = [each for each in applied if each.element == element and point in ("", each.point)]
-    return cast(FloatArray, sum((each.force[axis] for each in loads), np.zeros(motion.shape)))
+        return cast(FloatArray, ground_loads(motion, acting)[name].force["xy".index(part)])
+    element, among, is_couple = name
+    loads = [each for each in applied_loads(motion, acting, rates_in(motion, acting)).loads if load_key(each) in among]
+    if not loads:
+        return np.zeros(motion.shape)
+    force, moment, place = resultant([(motion[each.point], each.force) for each in loads])
+    if part in PLACE and not is_couple:
+        place = on_its_line(force, moment, place, centre_of_mass(motion.__getitem__, motion.plan, element))
+    return place[PLACE.index(part)] if part in PLACE else moment if is_couple else force["xy".index(part)]
+
+
+PLACE = ("atX", "atY")
+
+
+def load_key(load: Load) -> LoadKey:
+    """Return a key by which a load is known, in any situation."""
+    return load.element, load.point, load.on
 
 
 def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSituation]) -> list[PageArrow]:
@@ -104,7 +126,8 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
             solved = pin_forces(poses)
         traced = TracedMotion(plan.beside, plan.beside.trace)
         here: list[AnyMotion] = [traced, *(each.motion for each in situations if each.motion is not None)]
-        loads = dict.fromkeys((each.element, each.point) for one in here for each in applied_loads(one, PLAIN, rates_in(one, PLAIN)).loads)
+        every = {load_key(each): each for one in here for each in applied_loads(one, PLAIN, rates_in(one, PLAIN)).loads}
+        loads = drawn_together(solved, every.values())
     except LinkageError:  # no forces, or loads that have no program
         return []
     joints = solved.joints if loads else ()
@@ -116,20 +139,37 @@ def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSi
         for joint, parts in told:
             on, by = bodies_shown(solved, joint)
             of_joint: dict[str, Request] = {part: pin_force(joint.point, on, part, by=by) for part in parts}
-            found.append(PageArrow(joint.point, of_joint, False, None, short_name(solved, on), short_name(solved, by)))
+            found.append(PageArrow(joint.point, of_joint, False, short_name(solved, on), short_name(solved, by)))
             for each in of_joint.values() if len(found) == 1 else ():
                 bound(plan, each).nodes(plan.beside)
     except UntracedError:  # which parts pull is found pose by pose: the loads alone are drawn
         found.clear()
-    asked: dict[tuple[str, Any], tuple[str, Centre]] = {}
-    if loads:
-        asked = {("ground", (k, each.element)): (each.point, None) for k, each in enumerate(ground_loads(poses, PLAIN))}
-    for element, point in loads:
-        centre = centre_beside(plan, element)
-        asked["load", (element, "" if centre else point)] = (centre[0] if centre else point, centre)
-    for (kind, name), (point, centre) in asked.items():
-        keys = ((kind, name, axis) for axis in (0, 1))
-        x, y = (LawRequest(formula=partial(load_part, *key), text=f"{kind} {name}", known=key, acting=PLAIN) for key in keys)
-        called = name[kind == "ground"].partition("(")[0]
-        found.append(PageArrow(point, {"x": x, "y": y}, kind == "load", centre, called, ""))
-    return found
+    return [*found, *(load_arrows(solved, poses, loads) if loads else ())]
+
+
+def load_arrows(solved: PinForces, poses: Motion, loads: Mapping[tuple[str, str, str], Sequence[Load]]) -> Iterator[PageArrow]:
+    """Yield what the ground puts on a vehicle, then an element's loads on each body as one force or couple."""
+    asked: dict[tuple[str, Any], tuple[str, str, tuple[str, ...]]] = {}
+    for k, ground in enumerate(ground_loads(poses, PLAIN)):
+        asked["ground", k] = ground.element, ground.point, ("x", "y")
+    for (element, _, _), each_of in loads.items():
+        among, is_alone = frozenset(map(load_key, each_of)), len({each.point for each in each_of}) == 1
+        is_couple = not is_alone and turns_only(poses, element, among)
+        place = () if is_alone and centre_beside(poses.plan, element) is None else PLACE
+        asked["load", (element, among, is_couple)] = element, each_of[0].point, (*(["couple"] if is_couple else "xy"), *place)
+    for (kind, name), (element, point, parts) in asked.items():
+        of_load: dict[str, Request] = {}
+        for part in parts:
+            formula, text = partial(load_part, kind, name, part), f"{kind} {element} {part}"
+            of_load[part] = LawRequest(formula=formula, text=text, known=(kind, name, part), acting=PLAIN)
+        yield PageArrow(point, of_load, kind == "load", element.partition("(")[0], "")
+
+
+def turns_only(poses: Motion, element: str, among: frozenset[LoadKey]) -> bool:
+    """Return whether an element's loads on a body are a couple, whatever its size."""
+    given = poses.plan.of_kind(ForceElement).get(element)
+    if given is not None and any(glyph.drawn_as == "moment" for glyph in given.glyphs(poses.plan.members)):
+        return True
+    forces = [each.force for each in applied_loads(poses, PLAIN, rates_in(poses, PLAIN)).loads if load_key(each) in among]
+    most = sum((np.abs(each) for each in forces), np.zeros(1))
+    return bool(np.any(most > 0.0) and np.all(np.abs(sum(forces)) <= 1e-9 * most))

@@ -17,7 +17,7 @@ from ..checks import require
 from ..errors import DefinitionError, ensure
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
-from ..plan import WIDE, Plan, member_sides
+from ..plan import WIDE, member_sides
 from ..program import FloatArray
 from ..quantities import Quantity, Where, is_whole, joined_names, needs
 from ..steps import Arrow, Guide, Point
@@ -730,10 +730,3 @@ def rigid_together(bodies: list[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]
         place = found.index(one[0])
         together = tuple(dict.fromkeys(point for body in one for point in body))
         found = [*found[:place], together, *(body for body in found[place:] if body not in one)]
-
-
-def centre_beside(plan: Plan, element: str) -> tuple[str, str, tuple[float, float]] | None:
-    """Return where the centre of a body's own mass lies beside its points: from the first of two towards the second, and to the left."""
-    found = plan.of_kind(ForceElement).get(element)
-    glyphs = found.glyphs(plan.members) if found is not None else ()
-    return next(((glyph.points[0], glyph.points[1], glyph.away) for glyph in glyphs if glyph.away is not None), None)

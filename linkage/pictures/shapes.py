@@ -356,12 +356,15 @@ def force_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
 
 
 def moment_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
-    """Return a curved arrow about the place where a moment is written; it says no sense."""
-    ways = np.radians(np.linspace(-140.0, 100.0, 25))
+    """Return a curved arrow with two heads about the place where a moment is written: it says no sense."""
+    ways = np.radians(np.linspace(-130.0, 90.0, 25))
     arc = 1.5 * size * polar(ways)
-    out, along = arc[-1] / (1.5 * size), left_of(polar(ways[-1]))
-    head = np.array([arc[-1] + 0.9 * size * along, arc[-1] + 0.5 * size * out, arc[-1] - 0.5 * size * out])
-    return keeping(arc, bold=True), keeping(head, fill="INK", closed=True)
+    found = [keeping(arc, bold=True)]
+    for end, side in ((0, -0.9), (-1, 0.9)):
+        axes = np.array([polar(ways[end]), left_of(polar(ways[end]))])
+        head = arc[end] + size * np.array([[0.0, side], [0.5, 0.0], [-0.5, 0.0]]) @ axes
+        found.append(keeping(head, fill="INK", closed=True))
+    return tuple(found)
 
 
 ON_BODIES: Mapping[str, Callable[[float, float], tuple[DrawnLine, ...]]] = MappingProxyType({"mass": weight_mark, "moment": moment_mark})

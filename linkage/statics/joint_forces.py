@@ -184,9 +184,13 @@ class PinForces(Shown):
     @cached_property
     def _loads(self) -> tuple[tuple[str, Load], ...]:
         """The loads with the names of the bodies that they act on, the reactions of a vehicle's supports among them."""
-        name, bearer, axles = self._structure.name, self._structure.bearer, {each.element for each in self._ground}
+        axles = {each.element for each in self._ground}
         loads = [each for each in self._found.applied.loads if each.element not in axles]
-        return tuple((name(bearer(each)), each) for each in (*loads, *self._found.run_loads(), *self._ground))
+        return tuple((self._body_under(each), each) for each in (*loads, *self._found.run_loads(), *self._ground))
+
+    def _body_under(self, load: Load) -> str:
+        """Return the name of the body that a load acts on."""
+        return self._structure.name(self._structure.bearer(load))
 
     def at(self, point: str) -> tuple[JointForce, ...]:
         """Return the joints at a point.

@@ -77,6 +77,7 @@ class Press(Mechanism):
     P = OnLink(A, B, AP=0.6, BAP=10 * deg)
     drag = Moment("C B", M=-250.0)
     own = LinkMass("A B", mass=30.0, at=(0.2, 0.05))
+    plate = LinkMass("A B P", mass=12.0)
     pull = Force(P, (400.0, -300.0))
     coil = Spring(B, W, stiffness=4000.0, free_length=0.3)
 
@@ -169,6 +170,16 @@ def test_a_force_on_a_page_acts_on_the_body_on_which_it_is_drawn(machine):
             assert any(np.allclose(shown, one, rtol=1e-9) for one in there) or not np.linalg.norm(shown) > 1e-6, each.point
             couples += [each.point] * (kind == "couple")
     assert not found or sorted(couples) == sorted(name.split()[1] for name, *_ in drawn if name.startswith("couple "))
+    for each in found:
+        if each.is_load:  # one arrow at one place in both, also of a mass that several points share
+            kind, places = ("moment", layer.turning) if "couple" in each.parts else ("load", layer.arrows)
+            shown = {part: float(np.ravel(motion[request])[0]) for part, request in each.parts.items()}
+            at = [shown.get(part, motion[each.point][axis].item()) for axis, part in enumerate(("atX", "atY"))]
+            size = [shown["couple"]] if kind == "moment" else [shown["x"], shown["y"]]
+            there = [
+                (one.at, [one.moment] if kind == "moment" else one.vector) for one in places if one.name.startswith(f"{kind} {each.on} ")
+            ]
+            assert any(np.allclose(spot, at) and np.allclose(one, size, rtol=1e-9) for spot, one in there) or not np.any(size), each.on
 
 
 @pytest.mark.slow
@@ -260,8 +271,8 @@ def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
     assert abs(vector[0]) < 1e-9 and vector[1] < 0.0
     on_page = [each for each in force_arrows(Press(), Press().sweep(3), [PageSituation(None)]) if each.on == "own"]
     (own,) = on_page
-    assert own.point == "A" and own.is_load and own.centre == ("A", "B", (0.2, 0.05)) and own.on == "own"
-    assert_allclose([motion[each] for each in own.parts.values()], [0.0, -30.0 * 9.80665], atol=1e-9)
+    assert own.point == "A" and own.is_load and own.on == "own"
+    assert_allclose([motion[each] for each in own.parts.values()], [0.0, -30.0 * 9.80665, *centre], atol=1e-9)
     assert named(figure, "moment drag")["moment drag on CB value"].get_text() == "0.250 kNm drag"
     curve = np.array(named(figure, "moment drag")["moment drag on CB"].get_xydata())
     turn = curve - 0.5 * (motion["C"] + motion["B"])

@@ -19,10 +19,26 @@ settings.register_profile("steady", deadline=None, max_examples=25)
 settings.load_profile("steady")
 
 
+CHROMIUM = Path("/usr/bin/chromium")
+ARGUMENTS = (
+    "--no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync"
+)
 SEARCHES = {"closed_curve", "dwell", "exact_synthesis", "path", "regions"}
 """The pages of `docs/howto` whose examples search: they take seconds, and run under `slow`."""
 WAITING = defaultdict(list)
 """By test file the plans of the machines that it brought along, whose mobility is checked before the first of its tests."""
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """Yield the browser of all pages, which takes seconds to start; skip where playwright or Debian's chromium is not installed."""
+    sync = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: pip install playwright")
+    if not CHROMIUM.exists():
+        pytest.skip(f"{CHROMIUM} is not there: apt install chromium")
+    with sync.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=str(CHROMIUM), args=ARGUMENTS.split())
+        yield browser
+        browser.close()
 
 
 @pytest.hookimpl(wrapper=True)

@@ -465,26 +465,21 @@ def test_what_the_built_pages_link_is_there(built):
 
 
 @pytest.mark.slow
-def test_the_built_pages_fit_their_screen(built):
-    playwright = pytest.importorskip("playwright.sync_api", reason="a browser opens the pages by playwright")
-    if not Path("/usr/bin/chromium").exists():
-        pytest.skip("Debian's chromium is not installed")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-quic"])
-        tab = browser.new_page(viewport={"width": 1366, "height": 657})
-        shown = "[...document.querySelectorAll('pre')].filter(e => e.offsetParent)"
-        wide = f"{shown}.filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.innerText)"
-        faults = []
-        for path in sorted(built.rglob("*.html")):
-            if "live" in path.parts or "_static" in path.parts:
-                continue
-            tab.set_viewport_size({"width": 1366, "height": 657})
-            tab.goto(path.as_uri(), wait_until="domcontentloaded")
-            faults += [(path.name, "pre", text[:80]) for text in tab.evaluate(wide)]
-            tab.set_viewport_size({"width": 390, "height": 760})
-            if tab.evaluate("document.documentElement.scrollWidth") > 390:
-                faults.append((path.name, "page", ""))
-        browser.close()
+def test_the_built_pages_fit_their_screen(built, chromium):
+    tab = chromium.new_page(viewport={"width": 1366, "height": 657})
+    shown = "[...document.querySelectorAll('pre')].filter(e => e.offsetParent)"
+    wide = f"{shown}.filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.innerText)"
+    faults = []
+    for path in sorted(built.rglob("*.html")):
+        if "live" in path.parts or "_static" in path.parts:
+            continue
+        tab.set_viewport_size({"width": 1366, "height": 657})
+        tab.goto(path.as_uri(), wait_until="domcontentloaded")
+        faults += [(path.name, "pre", text[:80]) for text in tab.evaluate(wide)]
+        tab.set_viewport_size({"width": 390, "height": 760})
+        if tab.evaluate("document.documentElement.scrollWidth") > 390:
+            faults.append((path.name, "page", ""))
+    tab.close()
     assert faults == []
 
 
@@ -492,23 +487,18 @@ RESULTS = "[...document.querySelectorAll('#search-results ul.search > li > a')].
 
 
 @pytest.mark.slow
-def test_the_search_of_the_built_pages_finds_them(built):
-    playwright = pytest.importorskip("playwright.sync_api", reason="a browser opens the pages by playwright")
-    if not Path("/usr/bin/chromium").exists():
-        pytest.skip("Debian's chromium is not installed")
+def test_the_search_of_the_built_pages_finds_them(built, chromium):
     handler = partial(SimpleHTTPRequestHandler, directory=built)
     wanted = {words: page for page, listed in STRANGERS.items() for words in listed}
-    missed = {}
-    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server, playwright.sync_playwright() as driver:
+    missed, tab = {}, chromium.new_page()
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        browser = driver.chromium.launch(executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-quic"])
-        tab = browser.new_page()
         for words, page in wanted.items():
             tab.goto(f"http://127.0.0.1:{server.server_port}/search.html?q={quote(words)}")
             tab.wait_for_selector("#search-results p.search-summary:has-text('finished')")
             found = [re.split(r"\.html", each)[0] for each in tab.evaluate(RESULTS)]
             if page not in list(dict.fromkeys(found))[:FOUND]:
                 missed[words] = found[:FOUND]
-        browser.close()
         server.shutdown()
+    tab.close()
     assert missed == {}

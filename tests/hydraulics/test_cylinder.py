@@ -78,6 +78,8 @@ def test_the_size_for_a_thrust():
     assert both.sized_for(0.5, 0.51 / area[0]).bore == 63 * mm < both.sized_for(-0.5, 0.51 / area[0]).bore  # half a newton pushes
     offers = Cylinder("A", "B", bore=100 * mm, rod=60 * mm, works="both").offers(0.5, 0.51 / area[1])
     assert tuple(each.rod for each in offers) == standard_rods(100 * mm)
+    pulls = [Cylinder("A", "B", bore=0.1, rod=rod, works="both").offers(-50 * kN, 160 * bar) for rod in (0.012, 0.09)]
+    assert pulls[0] == pulls[1] and {each.bore for each in pulls[0]} == {0.08}  # whatever rod it has
     found = PULL.sized_for(-250 * kN, 160 * bar)
     assert found.area * 160 * bar >= 250 * kN > CylinderSize(110 * mm, 60 * mm, 2, "rod").area * 160 * bar
 

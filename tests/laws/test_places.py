@@ -20,7 +20,7 @@ def machine_of(seed):
 
 
 def aims(machine, random):
-    """Return coordinates of as many points as there are strokes that tell them apart, None where a few tries find none."""
+    """Return coordinates of as many points as there are strokes, which tell them apart."""
     points, poses = [*machine.plan.moving], [random.uniform(0.0, 1.0, 3) for _ in machine.strokes]
     at = {name: each.start + part * (each.end - each.start) for (name, each), part in zip(machine.strokes.items(), poses, strict=True)}
     motion = machine.at(**at)
@@ -29,7 +29,7 @@ def aims(machine, random):
         slopes = np.array([[motion.ratio(each, wrt=name) for name in machine.strokes] for each in chosen]).transpose(2, 0, 1)
         if np.all(np.linalg.cond(slopes) < 1e3):
             return chosen
-    return None
+    raise AssertionError("no points were found that tell the strokes apart")
 
 
 def size_of(motion):
@@ -41,8 +41,6 @@ def size_of(motion):
 def test_every_pose_is_among_the_answers_for_its_own_place(seed):
     machine, random = machine_of(seed), np.random.default_rng(seed)
     chosen = aims(machine, random)
-    if chosen is None:
-        return
     at = {name: random.uniform(*sorted((each.start, each.end)), 4) for name, each in machine.strokes.items()}
     motion = machine.at(**at)
     for pose in range(4):
@@ -57,12 +55,10 @@ def test_every_pose_is_among_the_answers_for_its_own_place(seed):
             assert np.abs(again.value(each) - target.value).max() <= 1e-10 * size_of(motion)
 
 
-@for_all("seed", (1, 2, 4, 5), slow=[seed for seed in range(6, 18) if seed % 3])
+@for_all("seed", (1, 4), slow=[2, 5, *(seed for seed in range(6, 16) if seed % 3), 17])
 def test_a_path_leads_forth_and_back_on_its_own_branch(seed):
     machine, random = machine_of(seed), np.random.default_rng([seed, 1])
     chosen = aims(machine, random)
-    if chosen is None:
-        return
     t, names = np.linspace(0.0, 1.0, 21), [*machine.strokes]
     way = {}
     for name, each in machine.strokes.items():
@@ -71,8 +67,7 @@ def test_a_path_leads_forth_and_back_on_its_own_branch(seed):
     motion = machine.at(unreachable="nan", **way)
     slopes = np.array([[motion.ratio(each, wrt=name) for name in names] for each in chosen]).transpose(2, 0, 1)
     signs = np.sign(np.linalg.det(slopes))
-    if not motion.reached.all() or signs.min() < signs.max() or np.linalg.cond(slopes).max() > 1e3:
-        return
+    assert motion.reached.all() and signs.min() == signs.max() and np.linalg.cond(slopes).max() <= 1e3  # one branch all the way
     there_and_back = [Target(each, np.concatenate([motion.value(each), motion.value(each)[::-1]])) for each in chosen]
     found = machine.follow(there_and_back, start={name: float(way[name][0]) for name in names})
     for name, each in machine.strokes.items():
@@ -281,7 +276,7 @@ def test_poses_next_to_dead_points_of_loops_are_found_too(kind, seed):
 def test_a_path_ends_where_a_stroke_is_past_its_end():
     machine, heights = Excavator(), np.linspace(-1.0, 3.0, 101)
     targets = [Target(x("M"), 2.4), Target(y("M"), heights), Target("tilt", -60.0 * deg)]
-    with pytest.raises(AssemblyError, match=r"place (\d+) of 101, .*: arm = [\d.]+ mm is [\d.]+ mm past its end at 1046 mm") as told:
+    with pytest.raises(AssemblyError, match=r"place (\d+) of 101, .*: arm = [\d.]+ mm is [\d.]+ mm past its end at 1046 mm\.") as told:
         machine.follow(targets)
     assert not isinstance(told.value, SingularError) and 0.0 < told.value.shortfall < 0.02
     first = int(np.argmax(told.value.mask))

@@ -19,7 +19,6 @@ from linkage.sketch import MachineSketch, SketchDrive, SketchSlide, SketchWeight
 from linkage.sketch.board_json import board_json, board_tables
 from tests import shipped
 from tests.for_all import check_all
-from tests.linkage.pictures.test_page import chromium  # noqa: F401
 from tests.linkage.sketch import emit
 from tests.linkage.sketch.plans import PLANS
 from tests.linkage.sketch.test_machine_sketch import BOOM, DAILY, OTHERS, PUMP, python_class
@@ -58,7 +57,7 @@ d = model.weight(d, "N", 900, "load");
 
 
 @pytest.fixture(scope="module")
-def board(chromium):  # noqa: F811
+def board(chromium):
     """Return a function that runs a program with the board's functions in a page, and returns what it returns."""
     tab = chromium.new_page()
     tab.set_content("<!DOCTYPE html><title>functions</title>")

@@ -16,7 +16,7 @@ from linkage.cli import main
 from linkage.files import load
 from linkage.sketch import MachineSketch
 from tests.for_all import first_daily
-from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of  # noqa: F401
+from tests.linkage.pictures.test_page import PHONE, Shown, data_of
 from tests.members import unpacked
 
 SWEPT = """() => {
@@ -198,7 +198,7 @@ def test_the_command_opens_what_other_commands_read(tmp_path, monkeypatch, capsy
     assert main(["board", "four_ba"]) == 2 and "four_bar" in capsys.readouterr().err
 
 
-def test_a_four_bar_by_pointer_and_by_keys_is_the_same(chromium, empty):  # noqa: F811
+def test_a_four_bar_by_pointer_and_by_keys_is_the_same(chromium, empty):
     for draw in (four_bar, by_keys):
         with Board(chromium, empty) as board:
             draw(board)
@@ -209,7 +209,7 @@ def test_a_four_bar_by_pointer_and_by_keys_is_the_same(chromium, empty):  # noqa
 
 
 @first_daily(1, "draw", [front_loader, four_bar, slider_crank], ids=lambda draw: draw.__name__)
-def test_what_is_exported_moves_in_python_as_on_the_board(chromium, empty, draw, tmp_path):  # noqa: F811
+def test_what_is_exported_moves_in_python_as_on_the_board(chromium, empty, draw, tmp_path):
     with Board(chromium, empty) as board:
         draw(board)
         poses = board(SWEPT)
@@ -235,7 +235,7 @@ def test_what_is_exported_moves_in_python_as_on_the_board(chromium, empty, draw,
         assert board.drawing == before and board.said == []
 
 
-def test_undo_leads_to_the_empty_sheet_and_back(chromium, empty):  # noqa: F811
+def test_undo_leads_to_the_empty_sheet_and_back(chromium, empty):
     with Board(chromium, empty) as board:
         front_loader(board)
         full, count = board.drawing, 0
@@ -249,7 +249,7 @@ def test_undo_leads_to_the_empty_sheet_and_back(chromium, empty):  # noqa: F811
 
 
 @pytest.mark.slow
-def test_a_task_is_read_by_the_synthesis_and_undone(chromium, empty, tmp_path, monkeypatch):  # noqa: F811
+def test_a_task_is_read_by_the_synthesis_and_undone(chromium, empty, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with Board(chromium, empty) as board:
         four_bar(board)
@@ -276,7 +276,7 @@ def test_a_task_is_read_by_the_synthesis_and_undone(chromium, empty, tmp_path, m
 
 
 @pytest.mark.slow
-def test_a_pin_slides_on_a_link_that_turns_about_a_fixed_pin(chromium, empty):  # noqa: F811
+def test_a_pin_slides_on_a_link_that_turns_about_a_fixed_pin(chromium, empty):
     with Board(chromium, empty) as board:
         board.use("crank", (0, 300), (100, 300))
         board.use("bar", (0, 0), (200, 600))
@@ -292,7 +292,7 @@ def test_a_pin_slides_on_a_link_that_turns_about_a_fixed_pin(chromium, empty):  
 
 
 @pytest.mark.slow
-def test_two_fingers_see_closer_and_one_leads(chromium, empty):  # noqa: F811
+def test_two_fingers_see_closer_and_one_leads(chromium, empty):
     with Board(
         chromium, empty, PHONE, has_touch=True, is_mobile=True, viewport=dict(zip(("width", "height"), PHONE, strict=True))
     ) as board:
@@ -330,14 +330,14 @@ def test_two_fingers_see_closer_and_one_leads(chromium, empty):  # noqa: F811
 
 
 @pytest.mark.slow
-def test_what_the_board_cannot_hold_is_told_where_it_is_delivered(chromium, tmp_path):  # noqa: F811
+def test_what_the_board_cannot_hold_is_told_where_it_is_delivered(chromium, tmp_path):
     large = MachineSketch("Large", {f"P{n}": (0.1 * n, 1.0) for n in range(201)}, ("P0",), {})
     with Board(chromium, drawing_board(large, tmp_path / "large.html")) as board:
         assert "a drawing has a table points with at most 200 entries" in board.text("#message") and board.said == []
 
 
 @pytest.mark.slow
-def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
+def test_a_reload_keeps_the_work(chromium, empty):
     with Board(chromium, empty) as board:
         slider_crank(board)
         board.tab.locator("#units").select_option("in")
@@ -363,7 +363,7 @@ def test_a_reload_keeps_the_work(chromium, empty):  # noqa: F811
 
 
 @pytest.mark.slow
-def test_what_is_led_moves_and_no_link_is_stretched(chromium, empty):  # noqa: F811
+def test_what_is_led_moves_and_no_link_is_stretched(chromium, empty):
     with Board(chromium, empty) as board:
         four_bar(board)
         board.tab.locator("button[data-tool=move]").click()
@@ -383,7 +383,7 @@ def test_what_is_led_moves_and_no_link_is_stretched(chromium, empty):  # noqa: F
 
 
 @pytest.mark.slow
-def test_no_name_is_marked_as_text_while_a_pin_is_led(chromium, empty):  # noqa: F811
+def test_no_name_is_marked_as_text_while_a_pin_is_led(chromium, empty):
     with Board(chromium, empty) as board:
         four_bar(board)
         board.tab.locator("button[data-tool=move]").click()
@@ -398,7 +398,7 @@ def test_no_name_is_marked_as_text_while_a_pin_is_led(chromium, empty):  # noqa:
         assert marked == [""] * 3
 
 
-def test_numbers_are_typed_with_units(chromium, empty):  # noqa: F811
+def test_numbers_are_typed_with_units(chromium, empty):
     with Board(chromium, empty) as board:
         four_bar(board)
         before = board.lengths
@@ -439,7 +439,7 @@ def test_numbers_are_typed_with_units(chromium, empty):  # noqa: F811
         assert [*board.drawing["drives"]] == ["phi"] and board.said == []
 
 
-def test_what_cannot_be_is_said_and_nothing_is_bent(chromium, empty):  # noqa: F811
+def test_what_cannot_be_is_said_and_nothing_is_bent(chromium, empty):
     with Board(chromium, empty) as board:
         board.use("bar", (0, 0), (300, 0))
         board.use("bar", (300, 0), (100, 200))
@@ -484,7 +484,7 @@ def bucket(board):
 
 
 @pytest.mark.slow
-def test_a_plate_that_is_pressed_ends_with_enter(chromium, empty):  # noqa: F811
+def test_a_plate_that_is_pressed_ends_with_enter(chromium, empty):
     with Board(chromium, empty) as board:
         bucket(board)
         assert [len(points) for points in board.drawing["links"].values()] == [5, 2, 3, 2] and board.said == []
@@ -495,7 +495,7 @@ def test_a_plate_that_is_pressed_ends_with_enter(chromium, empty):  # noqa: F811
 
 
 @pytest.mark.slow
-def test_beyond_all_reach_no_drive_is_blamed_for_a_hair(chromium, empty):  # noqa: F811
+def test_beyond_all_reach_no_drive_is_blamed_for_a_hair(chromium, empty):
     with Board(chromium, empty) as board:
         bucket(board)
         before, drives, blamed = board.lengths, board.drawing["drives"], set()
@@ -516,7 +516,7 @@ def test_beyond_all_reach_no_drive_is_blamed_for_a_hair(chromium, empty):  # noq
 
 
 @pytest.mark.slow
-def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):  # noqa: F811
+def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):
     with Board(chromium, empty) as board:
         board.use("bar", (0, 0), (300, 0))
         board.use("cylinder", (0, -200), (300, 0))
@@ -529,7 +529,7 @@ def test_how_far_a_drive_goes_is_its_dead_point(chromium, empty):  # noqa: F811
 
 
 @pytest.mark.slow
-def test_what_could_not_be_opened_again_is_not_drawn(chromium, empty):  # noqa: F811
+def test_what_could_not_be_opened_again_is_not_drawn(chromium, empty):
     points = {f"P{i}": [0.05 * (i % 20), 0.05 * (i // 20)] for i in range(200)}
     with Board(chromium, empty) as board:
         board.tab.locator("#text-in").fill(json.dumps({"board": 1, "name": "Many", "points": points}))
@@ -548,7 +548,7 @@ def test_what_could_not_be_opened_again_is_not_drawn(chromium, empty):  # noqa: 
         assert len(board.drawing["points"]) == 200 and board.drawing["points"]["P7"][0] == 0.34 and board.said == []
 
 
-def test_a_file_that_is_dropped_is_opened_as_one_that_is_chosen(chromium, empty):  # noqa: F811
+def test_a_file_that_is_dropped_is_opened_as_one_that_is_chosen(chromium, empty):
     drop = """([text, size]) => {
         const files = new DataTransfer();
         files.items.add(new File([text.padEnd(size)], "dropped.json"));
@@ -570,7 +570,7 @@ def test_a_file_that_is_dropped_is_opened_as_one_that_is_chosen(chromium, empty)
         assert board.drawing["name"] == "Dropped" and board.said == []
 
 
-def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811
+def test_hostile_texts_are_inert(chromium, empty):
     hostile = "<img src=x onerror=window.struck=1>"
     good = {"board": 1, "name": "M", "points": {"A": [0, 0]}, "notes": [hostile]}
     texts = [
@@ -598,7 +598,7 @@ def test_hostile_texts_are_inert(chromium, empty):  # noqa: F811
         assert [each for each in board.asked if not each.startswith("file:")] == []
 
 
-def test_every_tool_has_a_key_and_a_name(chromium, empty):  # noqa: F811
+def test_every_tool_has_a_key_and_a_name(chromium, empty):
     with Board(chromium, empty, PHONE) as board:
         tools = board(
             "[...document.querySelectorAll('button[data-tool]')].map((each) => [each.dataset.tool, each.getAttribute('aria-keyshortcuts')])"

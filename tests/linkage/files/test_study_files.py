@@ -408,6 +408,7 @@ def test_a_file_asks_for_what_python_asks(here, said, best):
     ends = [line for line in lines if line["stage"] == "searched"]
     assert len(ends) == best.tries and min(line["value"] for line in ends if line["missing"] < 1e-7) == pytest.approx(best.value)
     assert float(designs[5]["OB, mm"]) == pytest.approx(lines[5]["OB"] / mm)
+    assert float(designs[5]["most(drive_force()), kN"]) == pytest.approx(lines[5]["value"] / kN)
     again = load(here / "best.toml")()
     assert again.dimensions == rounded.machine.dimensions
     assert (here / "drawing.png").read_bytes().startswith(b"\x89PNG") and "</svg>" in (here / "curves.svg").read_text()

@@ -120,6 +120,9 @@ def test_a_convex_outline_is_the_hull_of_its_points():
     for name in "CE":
         assert_allclose(motion[gap("drawn", name)], motion[gap("OAF", name)], rtol=1e-12)
     assert motion[gap("drawn", "block")].min() > 0.0
+    for other, words in (("OAF", "the outline is fixed to that body"), ("drawn", "this is one outline")):
+        with pytest.raises(DefinitionError, match=words):
+            motion[gap("drawn", other)]
 
 
 def test_circles_are_round():

@@ -79,10 +79,6 @@ from tests.members import unpacked
 
 BOARD = [each for each in BOARD_PARTS if each.startswith("board/") and each.endswith(".js")]
 DATA = Path(__file__).parents[1] / "data"
-CHROMIUM = Path("/usr/bin/chromium")
-ARGUMENTS = (
-    "--no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync"
-)
 SIZES = ["OB", "OC", "lift.bore", "load.mass"]
 LAPTOP, PHONE = (1366, 657), (390, 760)
 BLANK = "about:blank"
@@ -125,18 +121,6 @@ class Plain(FourBar):
 
     def columns(self, motion):
         return [*super().columns(motion), Column("count", np.array([float(len(str(each))) for each in motion["psi"]]), "")]
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    """Yield a browser; skip where playwright or Debian's chromium is not installed."""
-    sync = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: pip install playwright")
-    if not CHROMIUM.exists():
-        pytest.skip(f"{CHROMIUM} is not there: apt install chromium")
-    with sync.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=str(CHROMIUM), args=ARGUMENTS.split())
-        yield browser
-        browser.close()
 
 
 class Shown:

@@ -13,7 +13,7 @@ from linkage.units import bar, mm
 from mechanisms.at_work.excavator import Excavator
 from mechanisms.at_work.levelled import LevelledTelehandler
 from mechanisms.header_balancer import HeaderBalancer
-from tests.linkage.pictures.test_page import PHONE, Shown, chromium  # noqa: F401
+from tests.linkage.pictures.test_page import PHONE, Shown
 
 DESKTOP = (1440, 900)
 
@@ -144,12 +144,12 @@ def check_tasks(shown, kind, change, rule, by, other, folder, capsys):
 
 
 @pytest.mark.parametrize("size", [DESKTOP, PHONE])
-def test_five_tasks_are_done_on_ones_own_machine(chromium, size, tmp_path, capsys):  # noqa: F811
+def test_five_tasks_are_done_on_ones_own_machine(chromium, size, tmp_path, capsys):
     with Shown(chromium, page(Stacker(), tmp_path / "own.html"), size) as shown:
         check_tasks(shown, Stacker, ("load.mass", 1100), "lifting", "tilt.bore", ("load.mass", 700), tmp_path, capsys)
 
 
-def test_what_tips_is_told_with_its_place_and_case_and_its_arrow_is_red(chromium, tmp_path):  # noqa: F811
+def test_what_tips_is_told_with_its_place_and_case_and_its_arrow_is_red(chromium, tmp_path):
     """A box is looked at in two load cases: its place is shown in the one in which the verdict stands."""
     with Shown(chromium, page(Stacker(), tmp_path / "tips.html"), DESKTOP) as shown:
         shown.tab.locator("#forces").click()
@@ -179,12 +179,12 @@ def test_what_tips_is_told_with_its_place_and_case_and_its_arrow_is_red(chromium
     ],
 )
 @pytest.mark.parametrize("size", [DESKTOP, PHONE])
-def test_five_tasks_are_done_on_shipped_machines(chromium, kind, change, rule, by, other, size, tmp_path, capsys):  # noqa: F811
+def test_five_tasks_are_done_on_shipped_machines(chromium, kind, change, rule, by, other, size, tmp_path, capsys):
     with Shown(chromium, page(kind(), tmp_path / "shipped.html"), size) as shown:
         check_tasks(shown, kind, change, rule, by, other, tmp_path, capsys)
 
 
-def test_dead_points_beyond_all_that_several_overs_run_are_pythons(chromium, tmp_path):  # noqa: F811
+def test_dead_points_beyond_all_that_several_overs_run_are_pythons(chromium, tmp_path):
     design = {"TD": 0.301}
     with Shown(chromium, page(Stacker(), tmp_path / "dead.html"), DESKTOP) as shown:
         typed(shown, "TD", 301)
@@ -211,7 +211,7 @@ class Falling(Mechanism):
     B = Dyad(A, O, AB=0.6 * mm + S, OB=1.1 * mm, side=RIGHT)
 
 
-def test_a_slider_goes_from_low_to_high_and_places_are_as_fine_as_the_stroke(chromium, tmp_path):  # noqa: F811
+def test_a_slider_goes_from_low_to_high_and_places_are_as_fine_as_the_stroke(chromium, tmp_path):
     with Shown(chromium, page(Falling(), tmp_path / "falling.html"), DESKTOP) as shown:
         slider = shown.tab.locator("[data-stroke='S']")
         assert float(slider.input_value()) == 1000.0 and "it runs down" in shown.tab.locator("#curve").text_content()

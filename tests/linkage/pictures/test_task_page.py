@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 from linkage import DefinitionError, deg, mm, page
 from tests.for_all import first_daily
 from tests.linkage.pictures.test_draw_synthesis import found_for
-from tests.linkage.pictures.test_page import PHONE, Shown, chromium, data_of  # noqa: F401
+from tests.linkage.pictures.test_page import PHONE, Shown, data_of
 from tests.linkage.synthesis.test_task_error import nearest
 
 
@@ -31,7 +31,7 @@ def numbers(line):
 
 
 @first_daily(1, "kind", ["path", "function", "poses"])
-def test_it_shows_the_task_and_what_every_answer_misses(chromium, written, kind):  # noqa: F811
+def test_it_shows_the_task_and_what_every_answer_misses(chromium, written, kind):
     found, unit = found_for(kind), deg if kind == "function" else mm
     with Shown(chromium, written(kind)) as shown:
         assert shown.said == []
@@ -50,7 +50,7 @@ def test_it_shows_the_task_and_what_every_answer_misses(chromium, written, kind)
         assert shown.said == []
 
 
-def test_what_is_missed_follows_the_dimensions(chromium, written):  # noqa: F811
+def test_what_is_missed_follows_the_dimensions(chromium, written):
     found = found_for("path")
     best = found.machine
     with Shown(chromium, written("path"), PHONE) as shown:

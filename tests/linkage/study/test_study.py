@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle, deg
 from linkage.motion import each_at_its_stroke
 from linkage.study import Box, settings_for, zone
-from linkage.study.zone import extremes
+from linkage.study.zone import SettingsBox, extremes
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
@@ -123,6 +123,14 @@ def test_gaps_of_a_function_are_passed_over():
     assert 0.0 < np.isnan(seen).mean() < 0.5
     nothing, *_ = extremes(lambda task, unit, choice: np.full(len(unit), np.nan), 2, 2, 1)
     assert np.isnan(nothing).all()
+
+
+def test_a_search_counts_the_settings_that_it_looks_at():
+    """By their number it ends where a function is too rough."""
+    seen = []
+    box = SettingsBox(lambda task, unit, choice: seen.append(len(unit)) or unit[:, 0], 2, 2, 3)
+    box.values(np.array([0, 5]), np.full((2, 7, 2), 0.5))
+    assert box.count == sum(seen) > 14
 
 
 # -- zones ---------------------------------------------------------------------------------------------------

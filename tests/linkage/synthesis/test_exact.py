@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import root
 
 from linkage import RIGHT, DefinitionError, StudyError, burmester, deg, five_point, freudenstein
-from linkage.synthesis.exact_paths import general_task, solutions_of
+from linkage.synthesis.exact_paths import general_task, solutions_of, solved_each
 from mechanisms.classics.four_bar import FourBar
 from tests.for_all import first_daily, for_all
 from tests.linkage.synthesis.exact_tasks import as_rows, bar_at, lengths
@@ -46,6 +46,11 @@ def test_the_printed_problem_has_fifteen_real_solutions_of_thirty_three():
         motion = each.machine.at(phi=each.strokes[here])
         assert_allclose(motion["P"], np.transpose(LINE)[:, here], rtol=0, atol=1e-12)
         assert isinstance(each.machine, FourBar) and each.machine.sweep(31).reached.all()
+
+
+def test_equations_without_a_solution_leave_the_others_alone():
+    found = solved_each(np.array([np.diag([2.0, 4.0]), np.ones((2, 2)), np.eye(2)], complex), np.full((3, 2), 4.0 + 0.0j))
+    assert_allclose(found, [[2.0, 1.0], [np.nan, np.nan], [4.0, 4.0]])
 
 
 def test_a_general_task_has_thirty_six_solutions():

@@ -22,8 +22,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import require_type
-from linkage.errors import DefinitionError, ensure
+from linkage.errors import DefinitionError, ensure, require_type
 from linkage.frozen import immutable, keep_own
 from linkage.language import said
 from linkage.loads import Poses

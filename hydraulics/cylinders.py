@@ -21,8 +21,7 @@ from typing import Any, ClassVar, Literal, Self, TypeAlias, TypeVar, Unpack, cas
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import is_listed, require
-from linkage.errors import DefinitionError, cited, ensure, known_name, unknown, unwarned
+from linkage.errors import DefinitionError, cited, ensure, is_listed, known_name, require, unknown, unwarned
 from linkage.frozen import immutable, refuses_changes
 from linkage.language import noted, said, translated
 from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceElement, Load, Push, Rates, TwoPoint

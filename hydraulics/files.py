@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import singledispatch
 from typing import Any
 
-from linkage.checks import is_listed, require
-from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
+from linkage.errors import DefinitionError, cited, ensure, is_listed, known_name, require, unknown
 from linkage.quantities import Member, is_number, name_of
 from linkage.quantities.quantity import plain
 

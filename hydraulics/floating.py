@@ -18,8 +18,7 @@ from typing import Any, ClassVar, Self, TypeAlias, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import can_be_called, require, require_type
-from linkage.errors import DefinitionError, cited, ensure
+from linkage.errors import DefinitionError, can_be_called, cited, ensure, require, require_type
 from linkage.frozen import immutable
 from linkage.language import said
 from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses

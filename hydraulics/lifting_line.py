@@ -19,8 +19,7 @@ from typing import Any, Unpack, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import fits_shape
-from linkage.errors import DefinitionError, FormerName, UntracedError, ensure, one_word, unwarned
+from linkage.errors import DefinitionError, FormerName, UntracedError, ensure, fits_shape, one_word, unwarned
 from linkage.frozen import immutable
 from linkage.language import said, with_and
 from linkage.loads import AS_IT_RUNS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of

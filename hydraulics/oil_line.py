@@ -22,8 +22,7 @@ from typing import Any, ClassVar, TypeAlias, TypeVar, Unpack, cast
 
 import numpy as np
 
-from linkage.checks import require_type
-from linkage.errors import DefinitionError, cited, ensure, known_name, unknown
+from linkage.errors import DefinitionError, cited, ensure, known_name, require_type, unknown
 from linkage.frozen import FrozenDict, immutable
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Declared, ForceElement, Loads, Parameter, Poses, Tie, situation_of, takes_situation

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from linkage import LoadCase, Mechanism
-from linkage.checks import require
-from linkage.errors import DefinitionError, cited, ensure, known_name
+from linkage.errors import DefinitionError, cited, ensure, known_name, require
 from linkage.files.names import FileTable, by_whole_names
 from linkage.files.source import Source, measured_columns, source
 from linkage.frozen import immutable

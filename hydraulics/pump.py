@@ -13,8 +13,7 @@ from typing import Any, ClassVar, Literal, cast
 import numpy as np
 
 from linkage import Mechanism, Remark, Verdict
-from linkage.checks import require_type
-from linkage.errors import DefinitionError, known_name, one_word
+from linkage.errors import DefinitionError, known_name, one_word, require_type
 from linkage.frozen import immutable
 from linkage.language import noted, said
 from linkage.loads import Acting, Parameter

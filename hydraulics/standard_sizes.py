@@ -34,8 +34,7 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.checks import require
-from linkage.errors import DefinitionError, cited, ensure, known_name
+from linkage.errors import DefinitionError, cited, ensure, known_name, require
 from linkage.frozen import keep_own, refuses_changes
 from linkage.language import said, with_and
 from linkage.units import inch, mm, show, shown_in, shown_number, unit_sign

@@ -15,8 +15,7 @@ from typing import ClassVar, Unpack, cast
 
 import numpy as np
 
-from linkage.checks import require_type
-from linkage.errors import DefinitionError, known_name
+from linkage.errors import DefinitionError, known_name, require_type
 from linkage.frozen import immutable
 from linkage.language import said
 from linkage.loads import Acting, ActingKeywords, Case, Loads, Parameter, Poses, situation_of, takes_situation

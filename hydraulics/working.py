@@ -17,15 +17,14 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from linkage import Acting, ForceElement, Mechanism
-from linkage.checks import require, require_number, require_type
-from linkage.errors import AssemblyError, DefinitionError, ensure, known_name, unwarned
+from linkage.errors import AssemblyError, DefinitionError, ensure, known_name, require, require_type, unwarned
 from linkage.frozen import FrozenDict
 from linkage.language import said, with_and
 from linkage.motion import Instants, Motion, Over
 from linkage.numeric import last_holding
 from linkage.plan import Mask, Plan, require_kinds
 from linkage.quantities import Course, Reference, as_mapping, is_number, name_of
-from linkage.units import require_measure, show
+from linkage.units import require_measure, require_number, show
 
 from .consumers import AT_BORDER, Consumers, Consumption, cylinder_named, in_plan, refuse_unpushed
 from .cycle import (

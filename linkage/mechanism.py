@@ -16,8 +16,20 @@ import numpy as np
 import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies, width_words
-from .checks import is_class_of, is_listed, require, require_one_design, require_type
-from .errors import DefinitionError, cited, ensure, errors_of, is_yes, known_name, unknown
+from .errors import (
+    DefinitionError,
+    cited,
+    ensure,
+    errors_of,
+    is_class_of,
+    is_listed,
+    is_yes,
+    known_name,
+    require,
+    require_one_design,
+    require_type,
+    unknown,
+)
 from .frozen import FrozenDict
 from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas

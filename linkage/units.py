@@ -22,7 +22,7 @@ from contextvars import ContextVar
 from types import MappingProxyType
 from typing import Any, Self
 
-from .errors import DefinitionError, article, cited, ensure, known_name, unknown
+from .errors import DefinitionError, article, cited, ensure, is_number, known_name, unfit, unknown
 from .language import translated
 from .star import declare_public
 
@@ -198,6 +198,37 @@ def require_measure(value: object, unit: str, what: str) -> None:
             expected = f"value of {wanted}, such as {EXAMPLES[wanted]}" if wanted in EXAMPLES else "number in SI, without a unit"
             given = f"{article(each.measures)} {each.measures}"
             raise DefinitionError(f"{what}={float(each):.6g} was given as {given}; expected is a {expected}.")
+
+
+def require_number(
+    what: str, value: object, expected: str, *, above: float = -math.inf, least: float = -math.inf,
+    most: float = math.inf, below: float = math.inf, kind: str | None = "number",
+) -> float:  # fmt: skip
+    """Return one finite number within its limits; refuse anything else.
+
+    Parameters
+    ----------
+    what : str
+        What it is given for, as it is written: "efficiency", "gap(width".
+    value : object
+        What was given.
+    expected : str
+        What is expected, for the message, without the full stop: "a number is expected, zero or more".
+    above, least, most, below : float
+        The number is more than `above`, at least `least`, at most `most`, less than `below`.
+    kind : str, optional
+        What it measures, such as "length": an amount of another kind is refused; None where that is open.
+
+    Raises
+    ------
+    DefinitionError
+        It is no such number.
+    """
+    if not (is_number(value) and above < value < below and least <= value <= most):
+        raise unfit(what, value, expected)
+    if kind is not None:
+        require_measure(value, kind, what if ")" in what else what.replace("(", ": "))
+    return value
 
 
 def amounts_in(value: object) -> Iterator[Amount]:

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, TypeVar
 
 from hydraulics.inputs import not_negative, one_number, positive
 from linkage import Mechanism, Motion
-from linkage.checks import require_one_design
 from linkage.cli.command import CSV, Option, option, picture_option, pose_options
 from linkage.cli.settings import CHECK, OVER, machine_of, pair, si_value
-from linkage.errors import DefinitionError, known_name
+from linkage.errors import DefinitionError, known_name, require_one_design
 from linkage.motion import Answer, Question, judge_along
 
 if TYPE_CHECKING:

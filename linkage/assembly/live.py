@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from ..checks import is_listed
+from ..errors import is_listed
 from ..plan import Plan
 from ..program import Graph, Inputs, Level, Node, arrow_function, function_body, number, short_names
 from . import angle_continuation

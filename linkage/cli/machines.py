@@ -13,9 +13,8 @@ from traceback import extract_tb
 from types import ModuleType
 from typing import Any, TypeVar
 
-from ..checks import is_class_of
 from ..disk import OF_FILE, read
-from ..errors import DefinitionError, LinkageError, ensure, unknown
+from ..errors import DefinitionError, LinkageError, ensure, is_class_of, unknown
 from ..mechanism import Mechanism
 from ..plugins import guarded
 from .listing import OWN, registered

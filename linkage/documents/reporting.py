@@ -10,9 +10,8 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-from ..checks import require, require_type
 from ..disk import OF_FILE, check_name, check_place
-from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
+from ..errors import DefinitionError, LinkageError, cited, known_name, require, require_type, unwarned
 from ..language import current_language, said, translated, with_decimals
 from ..language import language as spoken
 from ..loads import Acting, situation_of

@@ -9,8 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..checks import require_one_design, require_whole
-from ..errors import AssemblyError, LinkageError, SingularError, ensure, unwarned
+from ..errors import AssemblyError, LinkageError, SingularError, ensure, require_one_design, require_whole, unwarned
 from ..language import said
 from ..loads import PLAIN_CASE, Acting, Case, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from ..checks import require
+from ..errors import require
 from ..language import said
 
 

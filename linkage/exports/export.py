@@ -14,9 +14,8 @@ from typing import Any
 import numpy as np
 
 from .. import plugins
-from ..checks import instance_of, require, require_one_design, require_type
 from ..disk import Place, check_name, check_place, replacing
-from ..errors import DefinitionError, ensure, known_name
+from ..errors import DefinitionError, ensure, instance_of, known_name, require, require_one_design, require_type
 from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Column, Motion, columns_of
 from ..pictures.strokes import pose_words

@@ -18,8 +18,7 @@ import sympy
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from ..checks import require_whole
-from ..errors import DefinitionError
+from ..errors import DefinitionError, require_whole
 from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
 from ..formulas.printing import reading_order
 from ..language import heading_of

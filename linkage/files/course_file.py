@@ -6,8 +6,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from ..checks import require, require_type
-from ..errors import DefinitionError, cited, ensure, known_name, unknown
+from ..errors import DefinitionError, cited, ensure, known_name, require, require_type, unknown
 from ..quantities import Course, Curve, is_number, ramp
 from ..units import UNITS, Amount, units_of
 from .design import degrees_text

@@ -8,8 +8,7 @@ from itertools import chain, permutations
 from math import isfinite
 from typing import Any
 
-from ..checks import require_one_design
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError, ensure, require_one_design
 from ..mechanism import Mechanism
 from ..plan import Part
 from ..quantities import InnerQuantity, Member, Number, Quantity, Ref, is_number, joined_names, label, name_of, quantity, source_text

@@ -12,8 +12,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, ismethod, signature
 from typing import Any, TypeAlias
 
-from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, cited, ensure, errors_of
+from ..errors import DefinitionError, cited, ensure, errors_of, is_listed, require, require_type
 from ..frozen import FrozenDict, immutable
 from ..loads import ForceElement
 from ..quantities import Member

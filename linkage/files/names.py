@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 from unicodedata import normalize
 
-from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, cited, ensure, unknown
+from ..errors import DefinitionError, cited, ensure, is_listed, require, require_type, unknown
 from ..quantities import Member, Quantity, Ref, is_name
 
 if TYPE_CHECKING:

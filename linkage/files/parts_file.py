@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .. import plugins
-from ..checks import is_class_of, require, require_type
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, is_class_of, require, require_type, unknown
 from ..mechanism import Mechanism
 from ..plan import Part
 from ..quantities import Member, is_member_or_name, is_nothing, label, name_of, quantity

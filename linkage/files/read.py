@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import require
-from ..errors import AssemblyError, DefinitionError, FileError, about, cited, ensure
+from ..errors import AssemblyError, DefinitionError, FileError, about, cited, ensure, require
 from ..mechanism import Mechanism
 from ..motion import Featured
 from ..plan import Table

@@ -17,8 +17,7 @@ from types import ModuleType
 from typing import Any, TypeAlias
 
 from .. import loads, plugins, steps, surroundings
-from ..checks import is_class_of, require, require_type
-from ..errors import DefinitionError, cited, ensure, unknown
+from ..errors import DefinitionError, cited, ensure, is_class_of, require, require_type, unknown
 from ..motion import OPTIONS, Over, Planes, stroke_unit
 from ..plan import Part
 from ..quantities import Course, Curve, Dimension, Member, PoseCondition, Quantity, Stroke, is_number, quantity, ref

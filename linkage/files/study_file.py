@@ -19,9 +19,8 @@ from inspect import Parameter, signature
 from pathlib import Path
 from typing import Any, TypeAlias, get_type_hints
 
-from ..checks import is_listed, require, require_type
 from ..disk import check_place
-from ..errors import DefinitionError, FileError, cited, ensure, known_name, one_word, unknown
+from ..errors import DefinitionError, FileError, cited, ensure, is_listed, known_name, one_word, require, require_type, unknown
 from ..frozen import immutable
 from ..loads import PLAIN_CASE, LoadCase
 from ..mechanism import Mechanism

@@ -25,8 +25,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ..checks import require, require_type
-from ..errors import DefinitionError, LinkageError, cited, ensure, known_name, unknown
+from ..errors import DefinitionError, LinkageError, cited, ensure, known_name, require, require_type, unknown
 from ..frozen import immutable
 from ..loads import Acting
 from ..mechanism import Mechanism

@@ -23,8 +23,7 @@ from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require, require_type
-from ..errors import DefinitionError, cited, ensure, known_name
+from ..errors import DefinitionError, cited, ensure, known_name, require, require_type
 from ..frozen import immutable
 from ..motion import outside, stroke_measure
 from ..motion.measures import Condition, Measure, measure_of, words_of

@@ -11,8 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, cited, ensure, known_name
+from ..errors import DefinitionError, cited, ensure, is_listed, known_name, require, require_type
 from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
 from ..units import UNITS, Amount, parse

@@ -11,9 +11,8 @@ from pathlib import Path
 from textwrap import fill
 from typing import Any
 
-from ..checks import is_class_of, require
 from ..disk import replacing_text
-from ..errors import DefinitionError, FileError, cited
+from ..errors import DefinitionError, FileError, cited, is_class_of, require
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..plan import Part
 from .design import Design, changed, measured_labels, without_sketch

@@ -13,8 +13,7 @@ import mpmath
 import numpy as np
 import sympy
 
-from ..checks import is_class_of, require, require_type, require_whole
-from ..errors import DefinitionError, FormerName, ensure, known_name
+from ..errors import DefinitionError, FormerName, ensure, is_class_of, known_name, require, require_type, require_whole
 from ..frozen import immutable
 from ..language import translated
 from ..loads import Case

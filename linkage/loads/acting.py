@@ -11,12 +11,11 @@ from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypedDict, Type
 
 from numpy.typing import ArrayLike
 
-from ..checks import require, require_number, require_type
-from ..errors import DefinitionError, cited, ensure, known_name, unknown
+from ..errors import DefinitionError, cited, ensure, known_name, require, require_type, unknown
 from ..frozen import immutable, keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
 from ..quantities.quantity import plain
-from ..units import deg
+from ..units import deg, require_number
 from .element import AS_IT_RUNS, DIRECTIONS, FRICTIONLESS, ForceElement, Load, Poses
 from .point import gravity_vector
 

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self, TypeAl
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require
-from ..errors import DefinitionError, cited, did_you_mean, ensure
+from ..errors import DefinitionError, cited, did_you_mean, ensure, require
 from ..frozen import keep_own
 from ..quantities import Jointed, Member, Number, Quantity, Reference, Variable, label, name_of, quantity, real, source_text
 from ..quantities.quantity import plain

@@ -9,8 +9,7 @@ from typing import ClassVar, Self, TypeAlias
 
 import numpy as np
 
-from ..checks import require, require_type, two_of
-from ..errors import DefinitionError, cited, unknown
+from ..errors import DefinitionError, cited, require, require_type, two_of, unknown
 from ..frozen import immutable, unmasked
 from ..quantities import Axes, Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain

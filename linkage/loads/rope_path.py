@@ -18,8 +18,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..checks import is_number
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, is_number
 from ..frozen import immutable
 from ..quantities import Axes, Member, Number, Quantity, Reference, Where, label, name_of
 from ..vectors import Scalar, Side, Vec

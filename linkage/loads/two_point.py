@@ -14,8 +14,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
 
 import numpy as np
 
-from ..checks import can_be_called
-from ..errors import DefinitionError, cited, ensure, errors_of
+from ..errors import DefinitionError, can_be_called, cited, ensure, errors_of
 from ..frozen import immutable
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
 from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates, by_speeds

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..checks import require_number
 from ..plan import Plan, Reading
+from ..units import require_number
 from ..vectors import Numbers
 
 EQUAL = 1e-9

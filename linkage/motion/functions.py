@@ -9,8 +9,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import of_one_shape, require
-from ..errors import DefinitionError, SingularError, UntracedError, ensure, one_word
+from ..errors import DefinitionError, SingularError, UntracedError, ensure, of_one_shape, one_word, require
 from ..frozen import FrozenDict
 from ..plan import Plan, rate_name, require_kinds
 from ..program import LANGUAGES, NO_VALUE, QUICKEST, FloatArray, Kernel, RunOptions

@@ -21,7 +21,6 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require_number
 from ..errors import DefinitionError, ensure, unknown
 from ..loads import TwoPoint
 from ..numeric import Corners, convex_pieces, crosses_itself, signed_area
@@ -30,6 +29,7 @@ from ..program import Node
 from ..quantities import Member, Reference, joined_names, name_of
 from ..steps import Link
 from ..surroundings import CircleOutline, Outline, numbers_at
+from ..units import require_number
 from ..vectors import Scalar, Vec, pick
 from .requests import MotionLike, NodeRequest, Trait
 

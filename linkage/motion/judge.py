@@ -16,8 +16,7 @@ from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 
-from ..checks import is_listed, require_type
-from ..errors import DefinitionError, cited, ensure, errors_of, heard, known_name, unwarned, warn
+from ..errors import DefinitionError, cited, ensure, errors_of, heard, is_listed, known_name, require_type, unwarned, warn
 from ..language import current_language, said
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke

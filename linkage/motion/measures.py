@@ -19,15 +19,14 @@ from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard
 
 import numpy as np
 
-from ..checks import require, require_number, require_type
-from ..errors import DefinitionError, FormerName, LawError, UntracedError, article, cited, ensure
+from ..errors import DefinitionError, FormerName, LawError, UntracedError, article, cited, ensure, require, require_type
 from ..loads import Acting, Case, LoadCase
 from ..plan import Plan, plan_measure, require_kind
 from ..program import FloatArray
 from ..quantities import Arithmetic, PoseCondition, Quantity, is_number, name_of, x, y
 from ..quantities.quantity import OPERATORS, UFUNCS, Function, Negative, Number, Operation, Sum, stands_for
 from ..steps import Point
-from ..units import Amount, display_unit, require_measure, show
+from ..units import Amount, display_unit, require_measure, require_number, show
 from .limits import stroke_measure
 from .motion import Motion
 from .requests import Combined, NodeRequest, Request, Value, bound, measured_in, stroke_of

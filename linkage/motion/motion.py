@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 import numpy as np
 
 from ..assembly import ambiguous_angle
-from ..checks import require, require_type
-from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, unknown, unwarned, warn
+from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, require, require_type, unknown, unwarned, warn
 from ..frozen import FrozenDict, read_only
 from ..numeric import differences
 from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds

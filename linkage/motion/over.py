@@ -10,8 +10,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import is_listed, require
-from ..errors import DefinitionError, FormerName, cited, ensure, known_name, unknown
+from ..errors import DefinitionError, FormerName, cited, ensure, is_listed, known_name, require, unknown
 from ..frozen import FrozenDict
 from ..language import said
 from ..loads import PLAIN_CASE, Case, LoadCase

@@ -14,8 +14,7 @@ from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 
-from ..checks import require, require_number, require_one_design, require_type
-from ..errors import DefinitionError, SingularWarning, cited, ensure, known_name, unwarned, warn
+from ..errors import DefinitionError, SingularWarning, cited, ensure, known_name, require, require_one_design, require_type, unwarned, warn
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..language import said
 from ..numeric.box import widened
@@ -24,7 +23,7 @@ from ..numeric.line import Index, last_holding
 from ..plan import Mask, Plan, require_kind
 from ..program import QUICKEST, FloatArray, Kernel, RunOptions, is_zero
 from ..quantities import Quantity, is_number, numbers_in
-from ..units import amount_or_float, deg, display_unit, mm, require_measure, show, unit_or_none
+from ..units import amount_or_float, deg, display_unit, mm, require_measure, require_number, show, unit_or_none
 from .dead_points import WARN
 from .grid import Grid
 from .limits import stroke_display_unit

@@ -18,8 +18,7 @@ from weakref import ref
 
 import numpy as np
 
-from ..checks import require
-from ..errors import DefinitionError, UntracedError, cited
+from ..errors import DefinitionError, UntracedError, cited, require
 from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
 from ..pickling import object_of, picklable
 from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan

@@ -16,8 +16,7 @@ from typing import Any, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import can_be_called, fits_shape
-from ..errors import AssemblyError, DefinitionError, cited, ensure, errors_of, unwarned
+from ..errors import AssemblyError, DefinitionError, can_be_called, cited, ensure, errors_of, fits_shape, unwarned
 from ..language import said
 from ..numeric.box import highest_in, values_a_stroke, weights_of
 from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, stretches, zoomed

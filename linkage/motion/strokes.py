@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import fits_shape, of_one_shape, require, require_whole
-from ..errors import DefinitionError, cited, ensure, known_name
+from ..errors import DefinitionError, cited, ensure, fits_shape, known_name, of_one_shape, require, require_whole
 from ..frozen import read_only
 from ..plan import Plan, rate_name, require_kinds
 from ..program import FloatArray

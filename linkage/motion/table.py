@@ -11,8 +11,7 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from ..checks import is_listed, require_type
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, is_listed, require_type
 from ..frozen import refuses_changes
 from ..language import heading_of, noted
 from ..loads import ForceElement, LoadCase

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias, overload
 import numpy as np
 
 from ..assembly import Assembly
-from ..checks import require
-from ..errors import DefinitionError, ensure, is_yes
+from ..errors import DefinitionError, ensure, is_yes, require
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING

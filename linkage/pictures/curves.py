@@ -13,8 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..checks import is_listed, require_type
-from ..errors import DefinitionError, known_name
+from ..errors import DefinitionError, is_listed, known_name, require_type
 from ..language import said, translated
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism

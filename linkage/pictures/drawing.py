@@ -16,8 +16,7 @@ from matplotlib.patches import Circle, Polygon
 from matplotlib.transforms import Affine2D
 from PIL import Image
 
-from ..checks import require_type
-from ..errors import FileError
+from ..errors import FileError, require_type
 from ..motion import Motion
 from ..program import FloatArray
 from . import style

@@ -18,9 +18,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 from PIL import Image
 
-from ..checks import can_be_called, require, require_type
 from ..disk import check_place, replacing, spoken
-from ..errors import DefinitionError, FileError, LinkageError
+from ..errors import DefinitionError, FileError, LinkageError, can_be_called, require, require_type
 from ..language import said, translated
 from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Motion

@@ -8,8 +8,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require_type
-from ..errors import AssemblyError, SingularError, ensure, unknown, unwarned
+from ..errors import AssemblyError, SingularError, ensure, require_type, unknown, unwarned
 from ..language import noted, said, translated
 from ..loads import Case, LoadCase, Loads
 from ..motion import Motion

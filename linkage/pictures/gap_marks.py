@@ -12,8 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ..checks import require, require_type
-from ..errors import unwarned
+from ..errors import require, require_type, unwarned
 from ..language import said, with_and
 from ..motion import Motion, Planes, Request, clearance, gap, nearest_gap, nearest_places, pair_at, pairs_without_planes
 from ..motion.grid import recalled

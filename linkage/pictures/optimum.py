@@ -12,8 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..checks import require_whole
-from ..errors import ensure
+from ..errors import ensure, require_whole
 from ..motion import Column, Motion, stroke_display_unit
 from ..motion.measures import At, Leaf, Measure, words_of
 from ..program import FloatArray

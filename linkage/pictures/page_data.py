@@ -13,8 +13,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
+from ..errors import DefinitionError, LinkageError, cited, is_listed, known_name, require, require_type, unknown, unwarned
 from ..language import heading_of, language, translated
 from ..loads import PLAIN_CASE, Case, ForceElement, TwoPoint
 from ..mechanism import Mechanism, verdicts_of

@@ -17,9 +17,8 @@ from zlib import compressobj
 
 import numpy as np
 
-from ..checks import require
 from ..disk import Place
-from ..errors import known_name
+from ..errors import known_name, require
 from ..language import language as spoken_language
 from ..language import translated
 from . import style

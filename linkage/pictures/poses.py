@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..checks import is_listed, require, require_whole
-from ..errors import DefinitionError, cited, ensure, known_name
+from ..errors import DefinitionError, cited, ensure, is_listed, known_name, require, require_whole
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion, least

@@ -13,8 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..checks import require
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError, ensure, require
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
 from ..plan import WIDE, member_sides

@@ -8,8 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..checks import fits_shape, is_listed, require, require_type
-from ..errors import ensure, known_name
+from ..errors import ensure, fits_shape, is_listed, known_name, require, require_type
 from ..language import noted, said
 from ..mechanism import Mechanism
 from ..motion import Column, Motion

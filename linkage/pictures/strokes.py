@@ -8,8 +8,7 @@ from math import ceil
 
 import numpy as np
 
-from ..checks import require_whole
-from ..errors import DefinitionError
+from ..errors import DefinitionError, require_whole
 from ..language import said, translated
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism

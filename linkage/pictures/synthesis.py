@@ -7,8 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..checks import require_whole
-from ..errors import StudyError
+from ..errors import StudyError, require_whole
 from ..language import said, said_of
 from ..motion import Column, stroke_display_unit
 from ..motion.measures import measure_of, words_of

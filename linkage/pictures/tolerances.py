@@ -11,8 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..checks import require_type
-from ..errors import ensure, known_name
+from ..errors import ensure, known_name, require_type
 from ..mechanism import Mechanism
 from ..motion import Column, Leaf
 from ..program import FloatArray

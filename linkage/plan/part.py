@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import is_listed, two_of
-from ..errors import DefinitionError, about, cited, ensure, is_yes, unknown
+from ..errors import DefinitionError, about, cited, ensure, is_listed, is_yes, two_of, unknown
 from ..frozen import FrozenDict
 from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
 from ..quantities import source_text as written

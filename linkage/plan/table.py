@@ -9,8 +9,7 @@ from typing import NamedTuple, TypeAlias, cast
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import is_listed, require
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, is_listed, require, unknown
 from ..frozen import read_only
 from ..loads.element import NEGATIVE, ROUGHEST, TOO_ROUGH
 from ..quantities import Number, Operand, Quantity, Variable, quantity, real, source_text

@@ -15,8 +15,7 @@ from typing import NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from .. import plugins
-from ..checks import require_whole
-from ..errors import DefinitionError, quoted
+from ..errors import DefinitionError, quoted, require_whole
 from ..frozen import FrozenDict
 from ..plugins import Plugins
 from ..vectors import FloatArray, Numbers

@@ -15,7 +15,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from .. import plugins
-from ..checks import instance_of
+from ..errors import instance_of
 from ..plugins import Plugins
 from .elimination import expanded
 from .node import Level, Node

@@ -13,8 +13,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from ..checks import is_listed
-from ..errors import DefinitionError
+from ..errors import DefinitionError, is_listed
 from ..vectors import Operators, Scalar
 from .node import Node
 from .operations import OPERATIONS

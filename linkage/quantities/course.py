@@ -10,10 +10,9 @@ from typing import Any, Self, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require, require_number, require_whole
-from ..errors import DefinitionError, article, cited, ensure, one_word
+from ..errors import DefinitionError, article, cited, ensure, one_word, require, require_whole
 from ..frozen import FrozenDict, frozen_copy, read_only, refuses_changes
-from ..units import Amount, amounts_in, display_unit, require_measure, show
+from ..units import Amount, amounts_in, display_unit, require_measure, require_number, show
 from ..vectors import FloatArray
 from .curve import Curve, column, derived
 from .quantity import is_number, numbers_in

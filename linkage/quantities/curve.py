@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require, require_number
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError, ensure, require
 from ..frozen import immutable, read_only, refuses_changes
-from ..units import amounts_in
+from ..units import amounts_in, require_number
 from ..vectors import FloatArray, Scalar, pick
 from .member import Pick, Reference, Where
 from .quantity import Quantity, quantity, real, source_text

@@ -13,8 +13,7 @@ from typing import Any, NoReturn, TypeAlias, cast
 
 import numpy as np
 
-from ..checks import is_number, is_whole
-from ..errors import DefinitionError, cited, ensure
+from ..errors import DefinitionError, cited, ensure, is_number, is_whole
 from ..frozen import immutable, unmasked
 from ..units import UNITS, amount_or_float
 from ..vectors import FloatArray, Operators, Scalar, Vec

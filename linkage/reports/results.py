@@ -9,8 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from ..checks import is_listed
-from ..errors import DefinitionError, LinkageError, cited, known_name, unwarned
+from ..errors import DefinitionError, LinkageError, cited, is_listed, known_name, unwarned
 from ..files.criterion import REQUESTS, request_function
 from ..language import noted, said
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement

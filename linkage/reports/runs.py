@@ -9,8 +9,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require_type
-from ..errors import DefinitionError, ensure, known_name
+from ..errors import DefinitionError, ensure, known_name, require_type
 from ..language import said
 from ..loads import PLAIN, Acting, Case, LoadCase
 from ..mechanism import Mechanism

@@ -8,7 +8,7 @@ from typing import TextIO
 
 import numpy as np
 
-from ..checks import is_listed, of_one_shape, require
+from ..errors import is_listed, of_one_shape, require
 from ..language import said
 from ..motion import Column
 from ..program import FloatArray

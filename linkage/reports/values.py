@@ -9,7 +9,7 @@ from dataclasses import is_dataclass
 
 import numpy as np
 
-from ..checks import is_listed
+from ..errors import is_listed
 from ..language import said
 from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism

@@ -9,8 +9,7 @@ from itertools import permutations
 from math import atan2, dist, isfinite
 from typing import Any
 
-from ..checks import is_listed, is_number
-from ..errors import DefinitionError, FileError, cited, ensure, quoted
+from ..errors import DefinitionError, FileError, cited, ensure, is_listed, is_number, quoted
 from ..files import from_dict, to_toml
 from ..files.design import in_unit
 from ..mechanism import Mechanism

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import is_class_of
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError, ensure, is_class_of
 from ..loads import TwoPoint, Weight
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion

@@ -11,8 +11,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, cited, ensure, errors_of, known_name, unknown
+from ..errors import DefinitionError, cited, ensure, errors_of, is_listed, known_name, require, require_type, unknown
 from ..loads import AS_IT_RUNS, FRICTIONLESS, OWN_LOADS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together

@@ -14,8 +14,7 @@ from typing import Any, TypeAlias, cast
 
 import numpy as np
 
-from ..checks import require
-from ..errors import DefinitionError, SingularError, ensure, unwarned
+from ..errors import DefinitionError, SingularError, ensure, require, unwarned
 from ..language import noted
 from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
 from ..motion import HasVerdicts, Judge, Motion, Over, RequestLike, speakers

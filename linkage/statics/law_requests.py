@@ -11,8 +11,7 @@ from weakref import ref
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import is_listed
-from ..errors import DefinitionError, LawError, UntracedError, ensure, unwarned
+from ..errors import DefinitionError, LawError, UntracedError, ensure, is_listed, unwarned
 from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, Load, LoadCase, Push, Rate, Rates, StrokeRates
 from ..motion import Motion, OnePose, Request, SmoothPiece, require_motion
 from ..motion.grid import MotionLike

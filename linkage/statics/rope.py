@@ -11,7 +11,6 @@ from typing import ClassVar, Unpack, cast
 
 import numpy as np
 
-from ..checks import require_number
 from ..errors import DefinitionError, cited, ensure, known_name
 from ..language import noted, said
 from ..loads import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
@@ -23,7 +22,7 @@ from ..program import FloatArray
 from ..quantities import InnerQuantity, Member, NamedMembers, Number, Quantity, Reference, Variable, is_number, label, name_of, quantity
 from ..quantities.member import in_class
 from ..steps import Point
-from ..units import show
+from ..units import require_number, show
 from ..verdict import Verdict
 from .law_requests import LawRequest, request_text
 from .poses import AnyMotion, motion_of_whole, plan_of

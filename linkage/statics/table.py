@@ -9,8 +9,7 @@ from typing import Any, Protocol, TypeAlias, cast, overload, runtime_checkable
 
 import numpy as np
 
-from ..checks import require_type
-from ..errors import DefinitionError, cited, ensure, unwarned
+from ..errors import DefinitionError, cited, ensure, require_type, unwarned
 from ..language import noted, said, translated
 from ..loads import Acting
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit

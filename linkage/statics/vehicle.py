@@ -15,8 +15,7 @@ from typing import Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..checks import fits_shape, require
-from ..errors import DefinitionError, ensure, known_name
+from ..errors import DefinitionError, ensure, fits_shape, known_name, require
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, ForceElement, Load, LoadCase, Loads, situation_of, takes_situation
 from ..loads.point import LinkMass, Support, Weight

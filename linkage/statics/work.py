@@ -10,7 +10,6 @@ from weakref import ref
 
 import numpy as np
 
-from ..checks import require_number
 from ..errors import DefinitionError, UntracedError, ensure, heard, warn
 from ..loads import Acting, ActingKeywords, Loads, TwoPoint, situation_of, takes_situation
 from ..loads.element import AS_IT_RUNS, AT_REST, SENSES, ForceElement, Rate, Rates
@@ -19,6 +18,7 @@ from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray, is_traced
 from ..quantities import needs
+from ..units import require_number
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
 from .holding import Holders, Levers, PressureLine, holders_of, is_among, same, stroke_followed, where_negative, with_levers

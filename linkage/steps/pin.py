@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from ..checks import require, require_number
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError, ensure, require
 from ..quantities import Member, Quantity, Reference, Stroke, Where, joined_names, name_of, of_kind, quantity
+from ..units import require_number
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
 from .labels import DimensionTable, Slot, Spoken

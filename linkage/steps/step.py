@@ -13,8 +13,7 @@ from typing import ClassVar, NamedTuple, Self, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import two_of
-from ..errors import DefinitionError, cited, did_you_mean, ensure
+from ..errors import DefinitionError, cited, did_you_mean, ensure, two_of
 from ..frozen import refuses_changes
 from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
 from ..units import deg, require_measure

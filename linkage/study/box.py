@@ -8,8 +8,7 @@ from typing import Any, TypeGuard
 
 import numpy as np
 
-from ..checks import is_listed, require, require_whole, unfit
-from ..errors import cited, ensure, one_word, unknown
+from ..errors import cited, ensure, is_listed, one_word, require, require_whole, unfit, unknown
 from ..frozen import immutable
 from ..mechanism import Mechanism, require_mechanism
 from ..plan import Plan

@@ -20,9 +20,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require
 from ..disk import check_name, in_words, read, replacing
-from ..errors import DefinitionError, FileError
+from ..errors import DefinitionError, FileError, require
 from ..mechanism import Mechanism
 from .designs import Batch, Designs, Task
 

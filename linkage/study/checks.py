@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import is_whole, require_one_design, unfit
-from ..errors import AssemblyError, cited, ensure
+from ..errors import AssemblyError, cited, ensure, is_whole, require_one_design, unfit
 from ..mechanism import Mechanism, require_mechanism
 from ..plan import Plan
 from .variants import is_side

@@ -12,8 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require_type
-from ..errors import DefinitionError, StudyError, cited, ensure
+from ..errors import DefinitionError, StudyError, cited, ensure, require_type
 from ..frozen import immutable, unmasked
 from ..mechanism import Mechanism
 from ..program import fixed_backend

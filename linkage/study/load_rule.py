@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from ..checks import require_number, require_type
-from ..errors import DefinitionError, cited, known_name
+from ..errors import DefinitionError, cited, known_name, require_type
 from ..frozen import refuses_changes
 from ..language import noted
 from ..quantities import is_number
+from ..units import require_number
 
 FACTORS: Mapping[str, str] = MappingProxyType(
     {

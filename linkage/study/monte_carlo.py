@@ -8,8 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..checks import is_listed, require
-from ..errors import DefinitionError, cited, ensure, known_name, one_word, unwarned
+from ..errors import DefinitionError, cited, ensure, is_listed, known_name, one_word, require, unwarned
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of

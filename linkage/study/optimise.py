@@ -11,8 +11,18 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, ca
 
 import numpy as np
 
-from ..checks import is_listed, require, require_number, require_whole
-from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, ensure, known_name, one_word
+from ..errors import (
+    AssemblyError,
+    DefinitionError,
+    LinkageError,
+    StudyError,
+    ensure,
+    is_listed,
+    known_name,
+    one_word,
+    require,
+    require_whole,
+)
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Over, Request, measures
@@ -23,7 +33,7 @@ from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, ref
 from ..statics.applied import case_of
 from ..statics.law_requests import LawRequest
-from ..units import show
+from ..units import require_number, show
 from .box import unit_points
 from .checkpoint import Checkpoint, digest, how_far
 from .checks import check_one_design

@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import require_number
 from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, ensure
 from ..frozen import immutable
@@ -25,7 +24,7 @@ from ..motion.measures import Constraint, FixedNumber, Integral, Leaf, Measure, 
 from ..motion.motion_verdicts import domain_words
 from ..plan import Plan
 from ..shown import HasSentence, Shown, text_columns
-from ..units import deg, display_unit, factor, mm, show, shown_in
+from ..units import deg, display_unit, factor, mm, require_number, show, shown_in
 from ..vectors import FloatArray, Index, Mask
 from .box import unit_points
 from .checks import unit_of

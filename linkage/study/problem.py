@@ -16,8 +16,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import is_listed, require_type
-from ..errors import DefinitionError, StudyError, cited, ensure, known_name
+from ..errors import DefinitionError, StudyError, cited, ensure, is_listed, known_name, require_type
 from ..frozen import FrozenDict, immutable
 from ..mechanism import Mechanism
 from ..motion import Constraint, Grid, Leaf, Measure, Motion, Request, greatest

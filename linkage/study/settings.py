@@ -7,8 +7,7 @@ from typing import Any, overload
 
 import numpy as np
 
-from ..checks import require, require_whole
-from ..errors import DefinitionError, cited, ensure, known_name, unwarned
+from ..errors import DefinitionError, cited, ensure, known_name, require, require_whole, unwarned
 from ..frozen import FrozenDict, immutable
 from ..language import said
 from ..mechanism import Mechanism

@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import require, require_type
-from ..errors import DefinitionError, cited, ensure, known_name, unknown
+from ..errors import DefinitionError, cited, ensure, known_name, require, require_type, unknown
 from ..frozen import immutable
 from ..loads import ForceElement
 from ..mechanism import Mechanism

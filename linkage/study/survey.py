@@ -20,8 +20,7 @@ from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
-from ..checks import can_be_called, require, require_whole
-from ..errors import DefinitionError, LinkageError, StudyError, cited, known_name, one_word
+from ..errors import DefinitionError, LinkageError, StudyError, can_be_called, cited, known_name, one_word, require, require_whole
 from ..frozen import FrozenDict, immutable, read_only
 from ..mechanism import Mechanism
 from ..shown import Shown

@@ -10,8 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..checks import require, require_type, require_whole
-from ..errors import DefinitionError, ensure, one_word, unknown, unwarned
+from ..errors import DefinitionError, ensure, one_word, require, require_type, require_whole, unknown, unwarned
 from ..frozen import FrozenDict, immutable, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import NodeRequest, Request, RequestLike, require_motion

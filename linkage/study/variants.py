@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 from ..assembly import members_on_sides
-from ..checks import is_listed, require
-from ..errors import DefinitionError, ensure
+from ..errors import DefinitionError, ensure, is_listed, require
 from ..frozen import FrozenDict
 from ..loads import TwoPoint
 from ..mechanism import Mechanism, declared

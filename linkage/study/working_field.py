@@ -17,8 +17,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import is_listed, require, require_type
-from ..errors import DefinitionError, cited, ensure, known_name, unwarned
+from ..errors import DefinitionError, cited, ensure, is_listed, known_name, require, require_type, unwarned
 from ..frozen import FrozenDict, frozen, immutable, read_only
 from ..language import heading_of, noted, said
 from ..loads import Case, ForceElement, Weight

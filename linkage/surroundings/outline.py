@@ -16,14 +16,13 @@ from typing import Any, ClassVar, Self, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import is_listed, require, require_number, require_type, two_of
-from ..errors import DefinitionError, FileError, cited, ensure, is_yes
+from ..errors import DefinitionError, FileError, cited, ensure, is_listed, is_yes, require, require_type, two_of
 from ..quantities import Axes, Member, Operand, Reference, Stroke, is_number, label, name_of, needed_behind, needs, of_kind, source_text
 from ..quantities.axes import NOTHING, is_nothing, plus
 from ..quantities.member import is_member_or_name
 from ..quantities.quantity import Quantity, plain, quantity
 from ..steps import Link
-from ..units import require_measure
+from ..units import require_measure, require_number
 
 Array: TypeAlias = npt.NDArray[np.float64]
 Value: TypeAlias = Callable[[Quantity], float]

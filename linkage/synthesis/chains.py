@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from ..assembly import chain_parts
-from ..checks import is_whole
-from ..errors import DefinitionError, cited, ensure, unwarned
+from ..errors import DefinitionError, cited, ensure, is_whole, unwarned
 from ..mechanism import Mechanism
 from ..mobility import MOST_LINKS, Form, canonical, chain_forms, joint_pairs
 from ..motion import Featured

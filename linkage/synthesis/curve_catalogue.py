@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import require_whole
-from ..errors import DefinitionError, StudyError, cited, ensure, unwarned
+from ..errors import DefinitionError, StudyError, cited, ensure, require_whole, unwarned
 from ..frozen import immutable
 from ..language import said
 from ..mechanism import Mechanism

@@ -17,8 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import plugins
-from ..checks import is_class_of, require, require_number, require_whole
-from ..errors import DefinitionError, StudyError, ensure
+from ..errors import DefinitionError, StudyError, ensure, is_class_of, require, require_whole
 from ..frozen import read_only
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
@@ -31,7 +30,7 @@ from ..shown import HasSentence, Shown, ShownList
 from ..steps import Guide
 from ..study.checks import check_one_design
 from ..study.variants import class_like, variant
-from ..units import show
+from ..units import require_number, show
 from ..vectors import LEFT, RIGHT, FloatArray, Side
 from .defects import TOLD, point_ranges, points_on_circuits
 from .fit import TURN, goes_one_way, one_way_round, within_turn

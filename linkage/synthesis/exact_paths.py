@@ -14,8 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require
-from ..errors import DefinitionError, StudyError, ensure
+from ..errors import DefinitionError, StudyError, ensure, require
 from ..language import said
 from ..numeric.descent import refined, without_repeats
 from ..program import FloatArray

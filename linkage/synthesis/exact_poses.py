@@ -15,8 +15,7 @@ from math import pi
 import numpy as np
 import numpy.typing as npt
 
-from ..checks import require
-from ..errors import DefinitionError, StudyError, ensure
+from ..errors import DefinitionError, StudyError, ensure, require
 from ..frozen import immutable, read_only
 from ..language import said
 from ..motion.regions import Disc, Region, region_of

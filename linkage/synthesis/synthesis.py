@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import is_class_of, is_whole
 from ..disk import Place, replacing_text
-from ..errors import StudyError, cited, ensure
+from ..errors import StudyError, cited, ensure, is_class_of, is_whole
 from ..frozen import immutable
 from ..language import said, said_of
 from ..mechanism import Mechanism

@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..checks import require_type
-from ..errors import DefinitionError, LinkageError, cited, unwarned
+from ..errors import DefinitionError, LinkageError, cited, require_type, unwarned
 from ..frozen import frozen, immutable
 from ..language import said
 from ..mechanism import Mechanism

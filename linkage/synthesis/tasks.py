@@ -12,8 +12,7 @@ from typing import Any, TypeAlias, TypeGuard
 
 import numpy as np
 
-from ..checks import is_class_of, is_listed, require, require_number, require_type
-from ..errors import DefinitionError, cited, ensure, is_yes
+from ..errors import DefinitionError, cited, ensure, is_class_of, is_listed, is_yes, require, require_type
 from ..frozen import frozen, immutable, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import ratio
@@ -25,7 +24,7 @@ from ..quantities import angle, numbers_in, ref, x, y
 from ..study.checks import check_one_design
 from ..study.problem import is_still, ranges_of
 from ..study.variants import Range
-from ..units import require_measure
+from ..units import require_measure, require_number
 
 SAME_PLACE = 1e-9
 """Of a task's size: the last point is the first one again where it is so near to it."""

@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from linkage import DefinitionError, Mechanism, StudyError, at, deg, integral, kN, least, mm, most, optimise, ratio, ref, x, y
-from linkage.checks import require_number
 from linkage.errors import cited, ensure, one_word
 from linkage.frozen import immutable
 from linkage.motion.measures import Measure
@@ -22,6 +21,7 @@ from linkage.numeric.quadrature import quadrature
 from linkage.program import FloatArray
 from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
+from linkage.units import require_number
 
 from .drives import AngledBellCrankArmDrive, ArmDrive, BoomDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
 from .duty import DriveCylinders, DriveDuty, clipped

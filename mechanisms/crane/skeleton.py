@@ -13,8 +13,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from linkage import Column, Crank, Dimension, Featured, Ground, Link, Mechanism, Motion, OnLink, Outline, Stroke, Verdict, angle, ref
-from linkage.checks import require
-from linkage.errors import cited, ensure
+from linkage.errors import cited, ensure, require
 from linkage.language import noted, said, translated
 from linkage.loads import LinkMass, LoadCase, Weight
 from linkage.program import FloatArray

@@ -21,8 +21,7 @@ import numpy as np
 from hydraulics import CylinderSize, reserve
 from hydraulics.inputs import efficient, in_pascals, one_number, positive
 from linkage import DefinitionError, MPa, Stroke, StudyError, at, deg, least, mm, most, optimise, ratio, ref, x, y
-from linkage.checks import require, require_type
-from linkage.errors import ensure, one_word
+from linkage.errors import ensure, one_word, require, require_type
 from linkage.frozen import refuses_changes
 from linkage.motion import Request
 from linkage.program import FloatArray

@@ -9,8 +9,7 @@ import numpy as np
 
 from hydraulics import LiftCircuit
 from linkage import Column, DefinitionError, Force, Motion, Verdict, least, most, pin_force, ratio, ref
-from linkage.checks import require_whole
-from linkage.errors import ensure
+from linkage.errors import ensure, require_whole
 from linkage.language import said
 from linkage.motion import Answer, MotionFunction, require_motion
 from linkage.program import FloatArray

@@ -13,14 +13,13 @@ import numpy as np
 
 from hydraulics import CylinderSize, Gas, adiabatic, isothermal, standard_bores
 from linkage import DefinitionError, Motion, Verdict, least
-from linkage.checks import require_number
 from linkage.errors import ensure
 from linkage.language import noted, said, translated, with_and
 from linkage.motion import Judge, MotionFunction, below_zero, last_holding, require_motion
 from linkage.motion.grid import recalled
 from linkage.plan import Mask
 from linkage.program import FloatArray
-from linkage.units import deg, kgf_cm2, mm, show, shown_number, unit_sign
+from linkage.units import deg, kgf_cm2, mm, require_number, show, shown_number, unit_sign
 
 from .following import PLAIN, HeaderState, at_horizon, height_at, kgf_cm2_text, over_following, relief
 

@@ -10,15 +10,14 @@ import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit, pressure
 from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, driving_force, most, ratio, reaction, ref
-from linkage.checks import require_number, require_whole
-from linkage.errors import ensure
+from linkage.errors import ensure, require_whole
 from linkage.language import noted
 from linkage.loads import SENSES, Acting, PinFriction, Support
 from linkage.loads.element import Formulas
 from linkage.motion import Answer, MotionFunction, judge_along, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance
-from linkage.units import mm, show
+from linkage.units import mm, require_number, show
 
 AB = Distance("A", "B")  # one for all, so that its ratio is worked out once
 

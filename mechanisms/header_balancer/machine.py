@@ -11,8 +11,7 @@ import numpy as np
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
 from hydraulics.inputs import in_pascals, not_negative, positive
 from linkage import LEFT, Column, Dyad, Featured, Ground, Link, Mechanism, Motion, OnLink, Outline, PinFriction, Support, Vector, Weight
-from linkage.checks import require
-from linkage.errors import DefinitionError, cited
+from linkage.errors import DefinitionError, cited, require
 from linkage.language import noted, said
 from linkage.loads.element import Formulas
 from linkage.quantities import Dimension, Stroke, angle, distance, is_whole, numbers_in, y

@@ -14,7 +14,6 @@ import numpy as np
 from hydraulics import LiftCircuit
 from hydraulics.cylinders import found_in
 from linkage import Column, Force, ForceElement, Mechanism, Motion, angle, least, most
-from linkage.checks import require_number
 from linkage.errors import ensure, unwarned
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
@@ -27,7 +26,7 @@ from linkage.quantities import Distance
 from linkage.reports import closely
 from linkage.statics import AnyMotion, LawRequest
 from linkage.study import Settings, Zone, settings_for, zone
-from linkage.units import deg, g0, mm, show, shown_number, unit_sign
+from linkage.units import deg, g0, mm, require_number, show, shown_number, unit_sign
 
 BEHIND = 610 * mm
 """Distance from the hitch points to the centre of the load at which tractors are tested (OECD Code 2)."""

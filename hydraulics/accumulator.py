@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cached_property, partial, reduce
-from math import isfinite
+from math import isfinite, nan
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -507,10 +507,10 @@ class AccumulatorBlock:
         ensure(not low > high, f"p_min = {text(low)} is above p_max = {text(high)}; exchange them.")
         each_of = enumerate((np.broadcast_arrays(*each) for each in self._bank), 1)
         charges = {number: charge[vessel > 0.0] for number, (charge, vessel) in each_of if np.any(vessel > 0.0)}
-        worst = {"charge": (low + self.atmosphere, np.max), "compression": (high + self.atmosphere, np.min)}
+        pressures = {"charge": low + self.atmosphere, "compression": high + self.atmosphere}
         found = []
-        for rule, (pressure, ends) in worst.items():
-            found += [self._rule(rule, n, float(ends(charge)), pressure, text, recharged) for n, charge in charges.items()]
+        for rule, ends in zip(pressures, (np.max, np.min), strict=True):
+            found += [self._rule(rule, n, float(ends(charge)), pressures, text, recharged) for n, charge in charges.items()]
         held = float(np.min(self.fluid(p_min)))
         says = said("{fluid} of fluid left at the lowest pressure, {low} gauge", fluid=show(held, "cm3", 4), low=text(low))
         remedy = "" if held > 0.0 else said("; lower a charge, or charge the line higher")
@@ -520,15 +520,15 @@ class AccumulatorBlock:
         return [*found, Verdict("allowed pressure", high <= limit, f"{says}{remedy}.")]
 
     def _rule(
-        self, rule: str, number: int, charge: float, pressure: float, text: Callable[[float], str],
+        self, rule: str, number: int, charge: float, pressures: Mapping[str, float], text: Callable[[float], str],
         recharged: Callable[[int, str], float] | None,
     ) -> Verdict:  # fmt: skip
-        """Return whether an accumulator's charge stays below the lowest pressure, or bears the highest one [Pa absolute]; by its rule."""
+        """Return whether an accumulator's charge keeps a rule at the pressure of it [Pa absolute], else the charge that keeps all rules."""
 
         def gauge(absolute: float) -> str:
             return said("{pressure} gauge", pressure=text(absolute - self.atmosphere))
 
-        is_low = rule == "charge"
+        is_low, pressure = rule == "charge", pressures[rule]
         if is_low:
             most, heading = text(CHARGE_SHARE * pressure), said("charge of accumulator {n}", n=number)
             by = {"charge": text(charge), "most": most, "share": CHARGE_SHARE}
@@ -541,13 +541,15 @@ class AccumulatorBlock:
             return Verdict(f"{rule} of accumulator {number}", True, f"{says}.", heading)
         possible = gauge(charge / CHARGE_SHARE if is_low else COMPRESSION * charge)
         own = CHARGE_SHARE * pressure if is_low else pressure / COMPRESSION
-        own = own if recharged is None else recharged(number, rule) + self.atmosphere  # in this range, else on its line
-        words = {"possible": possible, "wanted": gauge(own) if isfinite(own) else ""}
+        if recharged is not None:
+            own = recharged(number, rule) + self.atmosphere
+        elif pressures["compression"] > RANGE * pressures["charge"]:
+            own = nan
         if is_low and charge >= pressure:
             says += said("; it is idle there, full of gas")
-        if not words["wanted"]:
-            remedy = said("; raise the lowest pressure to {possible}", **words)
-            remedy = remedy if is_low else said("; lower the highest pressure to {possible}", **words)
+        words = {"possible": possible, "wanted": gauge(own), "ratio": RANGE}
+        if not isfinite(own):
+            remedy = said("; no charge suits: take larger ones, until the highest pressure is {ratio:g} times the lowest", **words)
         elif is_low:
             remedy = said("; lower the charge to {wanted}, or raise the lowest pressure to {possible}", **words)
         else:
@@ -634,6 +636,8 @@ def one_atmosphere(atmosphere: ArrayLike) -> Array:
 
 CHARGE_SHARE = 0.9
 COMPRESSION = 4.0
+RANGE = CHARGE_SHARE * COMPRESSION
+"""The highest pressure over the lowest one [absolute] that one charge bears by both rules."""
 
 
 def keeps_rule(rule: str, charge: Array | float, pressure: Array | float) -> Mask | bool:

@@ -155,17 +155,18 @@ class GasLine(Circuit):
         return [Verdict("line", False, f"{says}; {found}.", answer=high), *shut]
 
     def recharged(self, judge: Judge, block: AccumulatorBlock, worst: Mapping[str, Answer], number: int, rule: str) -> float:
-        """Return the charge of an accumulator next to its own, with which the line keeps a rule [Pa gauge]; NaN for none.
+        """Return the charge of an accumulator next to its own, with which it keeps all rules on the line [Pa gauge]; NaN for none.
 
         Whatever the charges, the `worst` pressure for a rule stands where most, or least, oil is drawn.
         """
-        place, own = judge.there(worst[rule]), one_design(block.accumulators[number - 1].charge)
-        limit = one_design(self.number(place, "charge_pressure")) if rule == "compression" else 0.05 * own
+        places, own = {each: judge.there(answer) for each, answer in worst.items()}, one_design(block.accumulators[number - 1].charge)
+        limit = one_design(self.number(judge.motion, "charge_pressure")) if rule == "compression" else 0.05 * own
 
         def keeps(charge: float) -> bool:
             vessels = [each.recharged(charge) if k == number else each for k, each in enumerate(block.accumulators, 1)]
-            pressure = self.on_block(replace(block, accumulators=vessels)).pressure(place)
-            return bool(np.all(keeps_rule(rule, charge + block.atmosphere, pressure + block.atmosphere)))
+            pressures = {each: self.on_block(replace(block, accumulators=vessels)).pressure(place) for each, place in places.items()}
+            kept = [np.all(keeps_rule(each, charge + block.atmosphere, p + block.atmosphere)) for each, p in pressures.items()]
+            return all(map(bool, kept))
 
         try:
             tried = np.geomspace(own, limit, 25)

@@ -40,12 +40,14 @@ from .cylinders import (
     carries_loads,
     judge_of,
     least_and_most,
+    line_beside,
     other_side,
     thrust_request,
+    works_by_lines,
 )
 from .files import pressure_kind
 from .inputs import EFFICIENCIES, PUMPED, Array, check_pressures, follows, not_negative, one_design, one_number
-from .lifting_line import LiftLine
+from .lifting_line import LiftLine, is_pushed_back
 from .moving import flow
 from .pump import Pump
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
@@ -460,8 +462,13 @@ class LiftingCylinder:
 
     def remedy_both(self) -> str:
         """Return the remedy where the thrust changes its sign and one side alone is declared."""
-        alone = self.ram.side == "both" or self.ram.is_single_acting or self.goes_back_by_another
-        return "" if alone else said('; works="both" judges the other side as well')
+        members, behind = self.judge.plan.members, other_side(self.ram)
+        if behind is None or self.ram.is_single_acting or self.goes_back_by_another:
+            return ""
+        if works_by_lines(self.ram, members) is None:
+            return said('; works="both" judges the other side as well')
+        is_taken = line_beside(self.ram, behind, self.circuit, members) is not None
+        return "" if is_taken else said("; an OilLine with a pump on {ram}.{side}_side judges it as well", ram=self.ram.name, side=behind)
 
     def remedy(self, reserve: float) -> str:
         """Return the remedy for a reserve below 1: a pressure, or a standard bore with its reserve."""
@@ -516,11 +523,13 @@ class LiftingCylinder:
         left = self.left(self.ram, circuit)
         loose = None if left is None else self.ram.pressed_wrongly(self.judge, left)
         if loose is not None:
+            by = {"force": show(-loose.value, "kN", 4), "where": loose.place, "remedy": said("Let the load press on it.")}
+            beside = line_beside(self.ram, other_side(self.ram), circuit, self.judge.plan.members)
+            if beside is not None and beside.kind_in(self.judge.plan.members) != "closed":
+                by["remedy"] = said("Let a load case shut that side's line, or let the load press on it.")
             text = said(
-                "the load pulls at it with up to {force} more than its other side gives, {where}: no oil holds it there. "
-                "Let a load case shut that side's line, or let the load press on it.",
-                force=show(-loose.value, "kN", 4), where=loose.place,
-            )  # fmt: skip
+                "the load pulls at it with up to {force} more than its other side gives, {where}: no oil holds it there. {remedy}", **by
+            )
             return Verdict("holding", False, text, answer=loose)
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
         words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []
@@ -553,7 +562,7 @@ class LiftingCylinder:
         found = self.mended(larger, limit / float(worst.value), lambda ram: asked) if alone else None
         size = said("take a thicker rod") if self.ram.side == "regenerative" else said("take a larger bore")
         if found is None:
-            return size
+            return said("no standard size is large enough, keep away from that pose") if alone else size
         sizes, answers = found
         holds = max(answers, key=lambda each: float(each.value))
         return said("{remedy}: with {size} it is up to {pressure}", remedy=size, size=size_words(sizes), pressure=self.show(holds.value))
@@ -578,7 +587,8 @@ class LiftingCylinder:
                 text = said("nothing holds it back {against}; {where} the load presses on neither side and nothing drives it.", **by)
             return Verdict("lowering", True, text, answer=replace(push, ok=True))
         where, enough = self.stuck(replace(self.back(way, resistance), acting=replace(judge.situation(push), direction=None))), False
-        if not (push.unbounded or self.ram.is_single_acting):
+        is_pushed = is_pushed_back(self.ram, self.circuit, judge.plan.members)
+        if is_pushed and not push.unbounded:
             (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
         by = {"where": where, "against": against, "place": push.place, "pose": push.place}
         by["push"] = show_enough(float(push.value), self.unit)
@@ -586,6 +596,8 @@ class LiftingCylinder:
             text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
         elif self.ram.is_single_acting:
             text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.", **by)
+        elif not is_pushed:
+            text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}; no pump is on its other side.", **by)
         else:
             text = said("it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.", **by)
             if self.ram.side == "both":

@@ -144,13 +144,19 @@ def way_back(
     acting = acting.towards(way) if goes is None else running
     size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
     empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
-    other = empties if ram.is_single_acting else other  # nothing pushes it back: what is missing where it empties
+    other = other if is_pushed_back(ram, line, motion.plan.members) else empties  # nothing pushes: what is missing where it empties
     helps = sense * by_other_lines(ram, line, held_in_case(motion, acting), None, True)
     brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
     push = (against * empties - brings - helps) / other
     pressures = [np.asarray(each)[()] for each in (np.maximum(brings + helps, 0.0) / empties, push, helps / other)]
     working, push, tank = pressures if goes is None else [only_where(goes * sense > 0.0, each) for each in pressures]
     return working, push, tank
+
+
+def is_pushed_back(ram: Ram, line: Circuit, members: NamedMembers) -> bool:
+    """Return whether oil may push a cylinder of a line back on its other side: a telescope has none, and gas and closed lines no pump."""
+    beside = line_beside(ram, other_side(ram), line, members)
+    return not ram.is_single_acting and (beside is None or beside.is_drained)
 
 
 class LiftLine(Circuit):

@@ -324,7 +324,7 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
         places = "; ".join(crossing)
         text = said("branches cross: {places}; there the motion may go on either way. Change a length, or guide it.", places=places)
         yield Verdict("change points", False, text)
-    still = [place_of(limits, value, name) for value, name in limits.cylinder_dead_points if low <= value <= high]
+    still = [place_of(limits, value, name) for value, name in limits.cylinder_dead_points if low - near <= value <= high + near]
     if still:
         text = said("its length stands still: {places}; there its thrust moves nothing.", places="; ".join(still))
         yield Verdict("cylinder's dead point", False, text)

@@ -29,7 +29,7 @@ from hydraulics import (
 from hydraulics.standard_sizes import chosen_series
 from linkage import LEFT, Dimension, Dyad, Force, Ground, Guide, LoadCase, Mechanism, OnGuide, OnLink, PinFriction, Stroke, report
 from linkage.motion import least, most
-from linkage.units import bar, inch, kN, litre, mm, psi, unit_system
+from linkage.units import bar, deg, inch, kN, litre, mm, psi, unit_system
 from tests.for_all import for_all
 from tests.members import told_by
 
@@ -291,6 +291,47 @@ def test_the_push_that_lowers_is_what_the_other_side_has_to_have(tmp_path):
         assert told in report(made(), tmp_path / "pulled.md").read_text()
 
 
+class Chained(Mechanism):
+    """Two platforms that are pulled up; the oil of the first one's rod side moves the second."""
+
+    S = Stroke(0.0, 0.40)
+    O, Q = Ground(0.0, 0.0), Ground(1.0, 0.0)
+    left, right = Guide(O, angle=90 * deg), Guide(Q, angle=90 * deg)
+    P = OnGuide(left, at=0.60 + S)
+    first, second = Cylinder(O, P, bore=100 * mm, rod=60 * mm), Cylinder(Q, "R", bore=80 * mm, rod=40 * mm)
+    R = OnGuide(right, at=second.length)
+    line, between = OilLine(first.piston_side, Pump(180 * bar)), OilLine(first.rod_side, second.piston_side, filled=dict(second=0.60))
+    here, there = Force(P, (0.0, 10 * kN)), Force(R, (0.0, 6 * kN))
+
+
+def test_what_lacks_where_no_pump_is_on_the_other_side_is_told_of_the_side_that_works():
+    gas = AccumulatorBlock([Accumulator(volume=4 * litre, charge=10 * bar)])
+    rod, second = math.pi / 4 * (0.1**2 - 0.06**2), math.pi / 4 * 0.08**2
+    pulled = {"load": Force("G", (0.0, 40 * kN))}
+    floating = type("Floating", (Hung,), pulled | dict(back=OilLine("ram.rod_side", gas, charge_pressure=20 * bar, at=0.0)))
+    for made, lacks in ((Chained, (10 * kN + 6 * kN * rod / second) / (math.pi / 4 * 0.1**2)), (floating, None)):
+        told = by_rule(made(), "line")
+        assert told["lowering"].ok is False and "no pump is on its other side" in told["lowering"].sentence
+        assert lacks is None or number(r"lacks up to (\S+) bar", told["lowering"].sentence, bar) == pytest.approx(lacks, rel=1e-3)
+        assert ("shut" in told["holding"].sentence) == (made is floating)  # a closed line is shut already
+
+
+def test_the_other_side_is_judged_as_the_words_on_a_load_that_drives_say():
+    load = {"load": Force("G", (0.0, 8 * kN))}
+    for line in (LiftCircuit("ram", pressure=180 * bar), OilLine("ram.piston_side", Pump(180 * bar))):
+        driven = type("Driven", (Bare,), load | dict(line=line))
+        remedy = by_rule(driven(), "line")["lifting"].sentence.split("cylinder; ")[1]
+        both = dict(ram=Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works="both"))
+        judged = both if 'works="both"' in remedy else dict(other=OilLine(remedy.split("pump on ")[1].split()[0], Pump(180 * bar)))
+        told = told_by(type("Judged", (driven,), judged)(), *judged, "line")
+        assert any(each.ok for each in told if each.rule.startswith("lifting"))
+
+
+def test_a_pressure_that_no_standard_size_holds_is_told_so():
+    close = type("Close", (Bare,), dict(line=LiftCircuit("ram", pressure=20 * bar, relief=20 * bar), load=Force("G", (0.0, -2e3 * kN))))
+    assert "no standard size is large enough" in by_rule(close(), "line")["holding"].sentence
+
+
 def test_a_valve_set_as_advised_is_as_usual():
     members = {"load": Force("G", (0.0, (-1.0 if push_of_a_newton()[1] > 1.0 else 1.0) * 60 * kN)), "supply": Pump(250 * bar)}
     made = type("Valved", (Hung,), members | {"valve": HoldingValve("line", pilot="back", setting=130 * bar, ratio=4)})
@@ -333,10 +374,10 @@ def test_remedies_and_offers_are_of_the_units_that_are_chosen():
         assert heavy().answers([most(pressure("ram"))])[0].value > 2000 * psi
 
 
-def on_gas(spelling, charges, rule, exponent):
-    """Return a lever on gas, by either spelling of its line."""
-    block = AccumulatorBlock([Accumulator(volume=(10.0 if rule == "charge" else 2.0) * litre, charge=charge) for charge in charges])
-    given = dict(charge_pressure=60 * bar, at=0.0 if rule == "charge" else 0.05, exponent=exponent)
+def on_gas(spelling, charges, exponent=1.0, size=10.0, at=0.0):
+    """Return the verdict on a lever's line of gas, by either spelling, with the charges and the size of each accumulator [l]."""
+    block = AccumulatorBlock([Accumulator(volume=size * litre, charge=charge) for charge in charges])
+    given = dict(charge_pressure=60 * bar, at=at, exponent=exponent)
     line = FloatCircuit("ram", block, **given) if spelling == "float" else OilLine("ram.piston_side", block, **given)
     (verdict,) = (each.sentence for each in told_by(type("OnGas", (Bare,), {"line": line})(), "line") if each.rule == "line")
     return verdict
@@ -349,7 +390,8 @@ def on_gas(spelling, charges, rule, exponent):
 )
 def test_a_charge_that_is_named_keeps_its_rule_on_the_line_that_has_it(charges, rule, exponent):
     promised = 0
-    told = {spelling: on_gas(spelling, charges, rule, exponent) for spelling in ("float", "line")}
+    size, at = (10.0, 0.0) if rule == "charge" else (2.0, 0.05)
+    told = {spelling: on_gas(spelling, charges, exponent, size, at) for spelling in ("float", "line")}
     assert told["float"] == told["line"]
     for place in range(len(charges)):
         said = re.search(rf"{rule} of accumulator {place + 1}: [^;]*(?:; it is idle[^;]*)?; \w+ the charge to (\S+) bar", told["line"])
@@ -358,9 +400,24 @@ def test_a_charge_that_is_named_keeps_its_rule_on_the_line_that_has_it(charges, 
         promised += 1
         for share, keeps in ((1.0, True), (1.005 if rule == "charge" else 0.995, False)):
             changed = [share * float(said[1]) * bar if k == place else each for k, each in enumerate(charges)]
-            now = on_gas("line" if place else "float", changed, rule, exponent)
+            now = on_gas("line" if place else "float", changed, exponent, size, at)
             assert (f"{rule} of accumulator {place + 1}:" not in now) == keeps, (share, told["line"], now)
     assert promised
+
+
+@for_all("seed", [3], slow=range(20))
+def test_who_follows_the_words_on_an_accumulator_comes_to_one_that_keeps_all_rules(seed):
+    draw = Random(seed)
+    size, charge, at = draw.uniform(1.2, 2.0), draw.uniform(5, 15) * bar, draw.uniform(0.0, 0.1)
+    told = []
+    for _ in range(6):
+        told.append(on_gas("line", [charge], size=size, at=at))
+        named = number(r"the charge to (\S+) bar", told[-1], bar)
+        if "accumulator" not in told[-1]:
+            assert len(told) > 1
+            return
+        size, charge = (1.5 * size, charge) if named is None else (size, named)
+    raise AssertionError(told)
 
 
 def pairs_on_one_line():

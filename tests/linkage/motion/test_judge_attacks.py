@@ -189,6 +189,8 @@ def test_dead_points_of_every_place_are_told_in_whatever_order():
     told = [sorted(each for each in Jib().verdicts(over=overs) if "stands still" in each) for overs in (None, [Jib.high, Jib.low])]
     assert told[0] == told[1] and len(told[0]) == 1 and "phi = 122.01 deg" in told[0][0]
     assert not any("stands still" in each for each in Jib().verdicts(over=Jib.low))
+    ends = [Over(phi=(np.arctan2(0.8, -0.5) + off, 140 * deg)) for off in (0.0, 1e-9, -1e-9)]  # where the stroke begins
+    assert all(sum("stands still" in each for each in Jib().verdicts(over=end)) == 1 for end in ends)
 
 
 # Requests and what is calculated from them, in all situations.

@@ -9,8 +9,7 @@ import numpy as np
 
 from linkage import LoadCase, Mechanism
 from linkage.errors import DefinitionError, cited, ensure, known_name, require
-from linkage.files.names import FileTable, by_whole_names
-from linkage.files.source import Source, measured_columns, source
+from linkage.files.source import FileTable, Source, by_whole_names, measured_columns, source
 from linkage.frozen import immutable
 from linkage.motion import stroke_measure
 from linkage.quantities import Course, Reference, is_number

@@ -15,15 +15,14 @@ import numpy as np
 from ..disk import check_place, in_words
 from ..errors import DefinitionError, StudyError, ensure, unknown
 from ..files import load, save
-from ..files.names import Keywords
+from ..files.source import Keywords
 from ..files.study_tasks import TaskResult, read_study
 from ..files.synthesis_file import read_search, read_synthesis
 from ..mechanism import Mechanism
 from ..motion import Column
 from ..study import Front, Tornado, Zone
-from ..study.checks import unit_of
 from ..study.optimum import tried_names
-from ..study.space import Space
+from ..study.space import Space, unit_of
 from ..study.survey import Progress as ProgressLike
 from ..units import deg, mm
 from .command import LINK, Command, option, progress_bar, repeatable, whole_number

@@ -11,8 +11,7 @@ from ..quantities import Course, Curve, is_number, ramp
 from ..units import UNITS, Amount, units_of
 from .design import degrees_text
 from .expression import one_unit
-from .names import FileTable, Keywords, Names
-from .source import measured_columns
+from .source import FileTable, Keywords, Names, measured_columns
 from .validators import amount_of
 
 STEPS: Mapping[str, Collection[str]] = {

@@ -31,7 +31,7 @@ from ..steps import Point
 from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .expression import NUMERIC, Grammar, Token, constant, finite
-from .names import Keywords
+from .source import Keywords
 
 # What a study file may ask for: the requests and conditions of this package, and those that others bring.
 #

@@ -16,7 +16,7 @@ from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
 from ..units import factor, parse
 from .expression import arrow_in, expression
-from .names import FileTable, Names
+from .source import FileTable, Names
 
 
 class Design:

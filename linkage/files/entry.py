@@ -20,8 +20,7 @@ from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
 from ..steps import Point, Step
 from ..units import SI
 from .design import Design
-from .names import NAME_LENGTH, FileTable, Keywords, Names
-from .source import Mistakes
+from .source import NAME_LENGTH, FileTable, Keywords, Mistakes, Names
 from .validators import KINDS, Kind, amount, fixed_number, quantity_of
 
 Make: TypeAlias = Callable[..., Member]

@@ -25,7 +25,7 @@ from ..quantities import Function, Length, Member, Number, Quantity, angle, dist
 from ..quantities.quantity import FUNCTIONS, OPERATORS
 from ..steps import Arrow, CosineAngle, Turn, Vector
 from ..units import DIGITS, UNITS, parse
-from .names import Keywords, Names
+from .source import Keywords, Names
 
 EXPRESSION_LENGTH = 1_000
 OPERATIONS = 100

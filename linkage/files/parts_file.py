@@ -16,7 +16,7 @@ from ..plan import Part
 from ..quantities import Member, is_member_or_name, is_nothing, label, name_of, quantity
 from ..steps import Point
 from .design import Design, degrees_text
-from .names import Keywords, Names, by_whole_names
+from .source import Keywords, Names, by_whole_names
 from .validators import Read, coordinates_of, points_of, quantity_of, switch_of
 
 OWN_KEYS: Mapping[str, Read] = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}

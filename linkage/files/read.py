@@ -18,10 +18,9 @@ from ..mechanism import Mechanism
 from ..motion import Featured
 from ..plan import Table
 from ..steps import Point
-from .names import FileTable, Names, by_whole_names, member_name
 from .parts_file import dotted_kinds, machine_named
 from .registry import registry
-from .source import Source, source
+from .source import FileTable, Names, Source, by_whole_names, member_name, source
 
 HEAD = ("name", "doc", "order", "featured", "machines")
 MACHINES = 50

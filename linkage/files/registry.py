@@ -28,8 +28,8 @@ from .course_file import STEPS, course_read, course_written, is_course, numbers_
 from .design import Design, degrees_text, in_unit
 from .entry import PATH, FileEntry, worded
 from .expression import expression, one_unit
-from .names import Keywords, Names, by_whole_names, listed
 from .parts_file import part_read, part_written
+from .source import Keywords, Names, by_whole_names, listed
 from .validators import amount_of, arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of, word_list_of
 
 # -- where a machine is looked at: `[over.loading]` with strokes, `path`, `poses`, `time`, `csv`, `only`, `cases`, `lost` --------

@@ -33,8 +33,7 @@ from ..study.tolerances import Tolerance, tolerances_of
 from ..study.variants import is_side
 from ..units import parse, parse_span
 from .criterion import criterion_of
-from .names import FileTable, Keywords, by_whole_names, listed
-from .source import TEXT, Mistakes, Source, each_of, source
+from .source import TEXT, FileTable, Keywords, Mistakes, Source, by_whole_names, each_of, listed, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
 """What returns the class of a machine by its text and the folder of the file that names it."""

@@ -36,20 +36,18 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
 from ..study import Box, Target, monte_carlo, settings_for, survey, tornado, zone
-from ..study.box import METHODS as SAMPLE_METHODS
-from ..study.checks import unit_of
 from ..study.measured import measured_title
 from ..study.monte_carlo import limits_listed
 from ..study.optimise import constraint_in_case
 from ..study.optimum import unit_of_measure
 from ..study.problem import NOWHERE, Problem, missed
-from ..study.space import Around, coordinates
+from ..study.space import METHODS as SAMPLE_METHODS
+from ..study.space import Around, coordinates, unit_of
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
 from . import study_file
 from .criterion import condition_said, criterion_of, measure_or_constant, measure_said, quantity_said
-from .names import FileTable, Keywords, by_whole_names
-from .source import each_of
+from .source import FileTable, Keywords, by_whole_names, each_of
 from .study_file import FindMachine, Settings, StudyHead, amount_said
 
 # -- what a survey measures: measures and conditions as text, of many designs at once -----------------------------

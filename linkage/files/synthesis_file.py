@@ -40,8 +40,7 @@ from ..synthesis import FunctionTask, PathTask, PoseTask, synthesise
 from ..units import UNITS, factor
 from . import study_file
 from .criterion import condition_said, measure_said, quantity_said
-from .names import Keywords
-from .source import Mistakes, csv_rows, each_of, heading_read, is_numeral, unit_factor
+from .source import Keywords, Mistakes, csv_rows, each_of, heading_read, is_numeral, unit_factor
 from .study_file import FindMachine, Read, Settings, StudyHead, amount_said
 
 # A search as a file: what is least or greatest, what may vary, and what must be kept.

@@ -18,8 +18,7 @@ from ..units import UNITS, Amount, parse
 from ..vectors import Side
 from .design import Design, degrees_text, option_said
 from .expression import arrow_in, expression, one_unit
-from .names import Names, by_whole_names, listed
-from .source import each_of
+from .source import Names, by_whole_names, each_of, listed
 
 Read: TypeAlias = Callable[[Any, Names], Any]
 Write: TypeAlias = Callable[[Any, Design, str], Any]

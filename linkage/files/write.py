@@ -16,9 +16,9 @@ from ..errors import DefinitionError, FileError, cited, is_class_of, require
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..plan import Part
 from .design import Design, changed, measured_labels, without_sketch
-from .names import FileTable, Keywords, Names
 from .parts_file import dotted_kinds, machines_of
 from .registry import registry
+from .source import FileTable, Keywords, Names
 
 Machine = type[Mechanism] | Mechanism
 WIDTH = 120

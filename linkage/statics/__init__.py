@@ -6,12 +6,11 @@ from .carried import PROBE, Direction, direction_at, direction_words, is_steady,
 from .force_requests import drive_force, drive_remarks, held_verdict, pin_force, pin_forces_under, thrust_from_forces
 from .holding import each_once, is_among, same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces
-from .law_requests import LawRequest, TracedMotion, request_text
+from .law_requests import LawRequest, TracedMotion, acceleration, dynamic_factor, has_masses, own_rates, pace_remarks, request_text, speed
 from .poses import AnyMotion, motion_of_whole, plan_of
 from .rope import Rope, tension
 from .solution import held_fault, held_in_case, loose_movements, looseness
 from .table import PinLoad, judged_table, max_table, table_text
-from .time_requests import acceleration, dynamic_factor, has_masses, own_rates, pace_remarks, speed
 from .vehicle import Standing, axle_load, ground_loads, reaction, slipping, standing, standing_supports
 from .work import driving_force, member_thrust, pump_thrust
 

@@ -12,17 +12,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, ensure, is_listed, unwarned
-from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, Load, LoadCase, Push, Rate, Rates, StrokeRates
-from ..motion import Motion, OnePose, Request, SmoothPiece, require_motion
+from ..language import said
+from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, LinkMass, Load, LoadCase, Push, Rate, Rates, StrokeRates, Weight
+from ..motion import Judge, Motion, OnePose, Request, SmoothPiece, require_motion
 from ..motion.grid import MotionLike
-from ..motion.requests import NO_TRAIT, Trait, identity_of, stroke_of
+from ..motion.requests import NO_TRAIT, Combined, Trait, identity_of, situated, stroke_of
 from ..motion.strokes import checked_name, order_of
 from ..plan import TRACING, ArrayReading, Mask, Plan, Trace
 from ..program import FloatArray, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
-from ..quantities import Angle, Distance, Member, Quantity, Reference, name_of
+from ..quantities import Angle, Distance, Member, Quantity, Reference, as_mapping, name_of
 from ..steps import Arrow, Point
 from ..vectors import Scalar
-from .applied import AppliedElement, AppliedLoads, Parts, element_parts, motion_in_case, plan_in_case, refuse_direction
+from ..verdict import Remark
+from .applied import AppliedElement, AppliedLoads, Parts, element_parts, known_rates, motion_in_case, plan_in_case, refuse_direction
 from .equilibrium import System
 from .friction import JointFriction
 from .holding import Levers
@@ -568,3 +570,119 @@ def request_text(word: str, arguments: Sequence[str], acting: Acting, *, moves: 
     given += [f"drive={acting.drive}"] if moves and acting.drive else []
     given += [] if acting.inertia is None else [f"inertia={acting.inertia}"]
     return f"{word}({', '.join(given)})"
+
+
+# Of a running machine: the speed of its points, and the part of inertia in a force. Rates and accelerations of the strokes are those of a
+# motion in time, or stand beside the strokes in `evaluate` and `function`.
+
+
+def own_rates(motion: AnyMotion, what: str, acting: Acting | None = None) -> Mapping[str, FloatArray]:
+    """Return the rates of the strokes of a motion, or those of a situation. `what` is asked for.
+
+    Raise DefinitionError where nothing says how fast they move.
+    """
+    found = require_motion(motion).rates if acting is None else known_rates(require_motion(motion), acting)
+    remedy = f"sweep over a path in time, or give rates={as_mapping(dict.fromkeys(motion.strokes, 0.05))} to evaluate"
+    ensure(found, f"{motion.plan.title}: {what}: nothing says how fast the strokes move; {remedy}.")
+    return found
+
+
+def point_request(word: str, point: Reference, measures: str, formula: Callable[[AnyMotion, str], FloatArray]) -> LawRequest:
+    """Return the request for a formula of a point that moves."""
+    name = name_of(point)
+
+    def examine(plan: Plan) -> None:
+        checked_name("Point", name, plan.points, plan.title)
+
+    return LawRequest(
+        formula=lambda motion: formula(motion, name), text=f"{word}({name})", known=(word, name), measures=measures, examine=examine
+    )
+
+
+def speed(point: Reference) -> LawRequest:
+    """Return the request for the speed of a point of a machine that runs.
+
+    Parameters
+    ----------
+    point : Reference
+        A point, or its name.
+
+    Returns
+    -------
+    LawRequest
+        The size of the velocity [m/s], for `answers`, `evaluate(..., rates=)`, tables and curves.
+    """
+
+    def over(motion: AnyMotion, name: str) -> FloatArray:
+        x, y = motion.velocity(name, own_rates(motion, f"speed({name})"))
+        return cast(FloatArray, np.hypot(x, y))
+
+    return point_request("speed", point, "speed", over)
+
+
+def acceleration(point: Reference) -> LawRequest:
+    """Return the request for the acceleration of a point of a machine that runs.
+
+    Parameters
+    ----------
+    point : Reference
+        A point, or its name.
+
+    Returns
+    -------
+    LawRequest
+        The size of the acceleration [m/s2], for `answers`, `evaluate(..., rates=, accelerations=)`, tables and curves.
+    """
+
+    def over(motion: AnyMotion, name: str) -> FloatArray:
+        x, y = motion.acceleration(name, own_rates(motion, f"acceleration({name})"), require_motion(motion).accelerations)
+        return cast(FloatArray, np.hypot(x, y))
+
+    return point_request("acceleration", point, "acceleration", over)
+
+
+def dynamic_factor(request: Request) -> Combined:
+    """Return the request for a force with inertia over the same force without: `most(dynamic_factor(thrust("lift")))`.
+
+    Parameters
+    ----------
+    request : Request
+        A force or a pressure, such as `thrust("lift")` or `pin_force("B")`.
+
+    Returns
+    -------
+    Combined
+        A number: 1 where nothing is accelerated, below 0 where inertia turns the force round.
+
+    Raises
+    ------
+    DefinitionError
+        The request is of no force, so that inertia changes nothing in it.
+    """
+    without = situated(request, Acting(inertia=False))
+    if without is request or not isinstance(request, Request):
+        raise DefinitionError(f'dynamic_factor({request}): a force is expected, such as dynamic_factor(thrust("lift")).')
+    return Combined("divide", (request, without), f"dynamic_factor({request})")
+
+
+def has_masses(plan: Plan) -> bool:
+    """Return whether a machine declares a mass, whose inertia counts over a path in time."""
+    return any(isinstance(each, (Weight, LinkMass)) for each in plan.of_kind(ForceElement).values())
+
+
+def pace_remarks(judge: Judge) -> list[Remark]:
+    """Return over which paths in time the inertia of a machine's masses is left out, or a start or a stop that takes no time."""
+    found = list[str]()
+    for place in judge.places if has_masses(judge.plan) else []:
+        name, jump = f"{place.over.name}: " if len(judge.places) > 1 else "", place.motion._rate_jump
+        sudden = [] if place.instants is None else [stroke for stroke, each in place.instants.courses.items() if each.starts_at_once]
+        if jump is not None:
+            text = said("{jump}, so that inertia is left out: give its ramp an acceleration, or take a smooth course.", jump=jump[1])
+            found.append(name + text)
+        elif sudden:
+            text = said(
+                "{strokes} starts or stops at once, which is in no force: give its ramp an acceleration, or take a smooth course.",
+                strokes=", ".join(sudden),
+            )
+            found.append(name + text)
+    return [*map(Remark, found)]

@@ -14,9 +14,9 @@ from ..mechanism import Mechanism
 from ..motion.measures import Constraint
 from ..program import FloatArray
 from ..units import show
+from .measured import no_value
 from .optimum import constraint_words, in_units, multipliers, unit_of_constraint
 from .problem import COARSE, Problem, is_still
-from .sampling import no_value
 from .solver import Local, SearchEnd, scales_of
 
 NOTHING: Mapping[tuple[int, ...], FloatArray] = MappingProxyType({})

@@ -17,9 +17,9 @@ from ..program import RunOptions
 from ..quantities import is_number
 from ..units import display_unit
 from ..vectors import FloatArray, Index, Mask, Numbers
-from .checks import check_in_count
 from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
 from .optimum import constraint_words
+from .space import check_in_count
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
 
 Task = TypeVar("Task")

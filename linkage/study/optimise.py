@@ -34,15 +34,13 @@ from ..quantities import Quantity, ref
 from ..statics.applied import case_of
 from ..statics.law_requests import LawRequest
 from ..units import require_number, show
-from .box import unit_points
 from .checkpoint import Checkpoint, digest, how_far
-from .checks import check_one_design
 from .designs import Batch
 from .infeasible import infeasible_error
 from .optimum import EvaluatedDesigns, Optimum, described, in_units, on_steps, unit_of_constraint, unit_of_measure
 from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of
 from .solver import Local, SearchEnd, grows, local_search
-from .space import Space
+from .space import Space, check_one_design, unit_points
 from .survey import Progress, check_progress, progress_told
 from .tolerances import ToleranceLike, sigma
 from .variants import Range, fitted_rows

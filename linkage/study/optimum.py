@@ -26,13 +26,11 @@ from ..plan import Plan
 from ..shown import HasSentence, Shown, text_columns
 from ..units import deg, display_unit, factor, mm, require_number, show, shown_in
 from ..vectors import FloatArray, Index, Mask
-from .box import unit_points
-from .checks import unit_of
+from .measured import no_value
 from .poles import check_bounded
 from .problem import LeafNumbers, Problem
-from .sampling import no_value
 from .solver import MET, SAME, Local, SearchEnd, local_search, missing_of, scales_of, true_worth, worth_in_order
-from .space import Space, Varied, size_of_machine
+from .space import Space, Varied, size_of_machine, unit_of, unit_points
 
 ACTIVE = 1e-6
 """A condition with no more than this part of its size to spare is active."""

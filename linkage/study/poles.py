@@ -12,10 +12,10 @@ from ..motion import Motion
 from ..motion.judge import MET
 from ..motion.measures import At, Measure, words_of
 from ..program import FloatArray
-from .box import unit_points
+from .measured import divisors_of
 from .problem import LeafNumbers, Problem, terms_size
-from .sampling import divisors_of
 from .solver import SearchEnd, divisors
+from .space import unit_points
 
 NEXT_TO_NOTHING = 1e-4
 """A divisor that is smaller than this part of its usual size has come to zero."""

@@ -30,8 +30,7 @@ from ..quantities import Quantity, is_number
 from ..vectors import Numbers
 from .checkpoint import measure_text
 from .designs import DesignValues
-from .measured import eager, motion_of, nothing_limits
-from .sampling import Samples, Sampling, divisors_of, rows_of_motion, with_values
+from .measured import Samples, Sampling, divisors_of, eager, motion_of, nothing_limits, rows_of_motion, with_values
 from .space import Space
 from .variants import Range, on_sides, variant
 

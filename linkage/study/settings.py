@@ -23,10 +23,9 @@ from ..plan import Mask, require_kind
 from ..program import QUICKEST, FloatArray, RunOptions
 from ..shown import HasSentence
 from ..units import show, unit_or_none
-from .box import Box, range_of, setting_words, unit_points
-from .checks import check_one_design, unit_of, why_not_assembled
 from .measured import QuantityLike, StudyPoses, traced_number
 from .poles import FAR, TINY
+from .space import Box, check_one_design, range_of, setting_words, unit_of, unit_points, why_not_assembled
 
 SAMPLES = 1025
 TOUCH, USUAL, POLES = 1e-9, (5.0, 95.0), 10.0

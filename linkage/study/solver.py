@@ -17,8 +17,8 @@ from ..errors import StudyError, ensure
 from ..frozen import immutable
 from ..motion.measures import CombinedMeasure, Constraint, FixedNumber, Integral, Leaf, Measure
 from ..program import FloatArray
+from .measured import no_value
 from .problem import Evaluated, LeafNumbers, LimitReachedError, Problem, Rows, missed, scale_among
-from .sampling import no_value
 
 FAR = 10.0
 """The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""

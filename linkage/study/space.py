@@ -1,4 +1,4 @@
-"""The space of a search: ranges of dimensions, in steps or not, choices, and rows of a catalogue."""
+"""What may vary: a search's space of ranges, steps, choices and rows of a catalogue, and the box of settings of a study."""
 
 from __future__ import annotations
 
@@ -8,23 +8,36 @@ from functools import cached_property
 from itertools import product
 from math import prod
 from statistics import median
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, ensure, known_name, require, require_type, unknown
+from ..errors import (
+    AssemblyError,
+    DefinitionError,
+    cited,
+    ensure,
+    is_listed,
+    is_whole,
+    known_name,
+    one_word,
+    require,
+    require_one_design,
+    require_type,
+    require_whole,
+    unfit,
+    unknown,
+)
 from ..frozen import immutable
 from ..loads import ForceElement
-from ..mechanism import Mechanism
+from ..mechanism import Mechanism, require_mechanism
 from ..motion.measures import Constraint, least
 from ..motion.regions import Disc, Region, inside_region, region_of
 from ..plan import Plan, Reading, plan_measure, require_kind
 from ..quantities import is_number, label
 from ..surroundings import Outline
-from ..units import show
+from ..units import amount_or_float, show, shown_number, unit_sign
 from ..vectors import FloatArray, Index, Side
-from .box import unit_points
-from .checks import unit_of
 from .designs import DesignValues, check_once
 from .variants import ENDING, is_side, sided_step
 
@@ -423,3 +436,209 @@ def rows_of(title: str, names: Sequence[str], given: object, owners: Sequence[tu
         ensure(len(row) == width and all(is_number(value) for value in row), f"{what}: {cited(each)} is no choice; {many} expected.")
         rows.append(tuple(row))
     return tuple(rows)
+
+
+# A box of settings: ranges of dimensions, and places to choose from.
+
+
+@immutable
+class Box:
+    """Settings to look at: ranges of values, times choices.
+
+    Parameters
+    ----------
+    ranges : mapping of str to tuple of float
+        From low to high [SI] by name.
+    choices : sequence of mapping, optional
+        Each a mapping of names to values; one without names by default.
+    """
+
+    ranges: Mapping[str, tuple[float, float]]
+    choices: Sequence[Mapping[str, Any]] = ({},)
+
+    @classmethod
+    def of(cls, machine: Mechanism, vary: Mapping[str, Any]) -> Box:
+        """Return the box that `dict(MK=(0.80, 0.96), M=[(0.22, 1.05), (0.22, 0.95)])` means.
+
+        Parameters
+        ----------
+        machine : Mechanism
+            The machine.
+        vary : mapping of str to object
+            By name a pair, which is a range, or a list of choices [SI].
+
+        Returns
+        -------
+        Box
+            The settings.
+
+        Raises
+        ------
+        DefinitionError
+            A dimension is not known, a range is the wrong way round, or it is anything else.
+        """
+        require_mechanism(machine)
+        if not isinstance(vary, Mapping):
+            raise unfit(f"{machine.plan.title}: vary", vary, "a dictionary of ranges and choices by name is expected")
+        for name in vary:
+            if not isinstance(name, str):
+                raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
+        ranges = {name: range_of(name, value) for name, value in vary.items() if isinstance(value, tuple)}
+        lists = {name: value for name, value in vary.items() if name not in ranges}
+        for name, given in lists.items():
+            expected = "write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)]"
+            require(isinstance(given, (list, range)) and given, name, given, expected)
+            for each in given:
+                what = f"{name}: {cited(each)} is no choice; write a number, or the two coordinates (x, y) of a point."
+                ensure(is_number(each) or is_pair(each), what)
+        box = cls(ranges, [dict(zip(lists, each, strict=True)) for each in product(*lists.values())])
+        for settings in (*box.choices, *({name: end} for name, pair in ranges.items() for end in pair)):
+            machine.replaced(**settings)
+        check_once(machine, vary)
+        return box
+
+    def settings(self, unit: FloatArray, choice: Index) -> DesignValues:
+        """Return settings by name, from coordinates in parts of the ranges.
+
+        Parameters
+        ----------
+        unit : array (m, k)
+            The coordinates between 0 and 1.
+        choice : array of int (m,)
+            The number of the choice.
+
+        Returns
+        -------
+        mapping of str to array (m,)
+            The settings [SI].
+        """
+        low, high = np.array([*self.ranges.values()], float).reshape(-1, 2).T
+        values = np.where(unit == 1.0, high, low + unit * (high - low))  # the far end to its last digit
+        found: DesignValues = dict(zip(self.ranges, values.T, strict=True))
+        for name in self.choices[0]:
+            table = np.array([each[name] for each in self.choices], float)[np.asarray(choice)]
+            found[name] = tuple(table.T) if table.ndim == 2 else table
+        return found
+
+    def sample(self, count: int, *, method: str = "sobol", seed: int = 0) -> DesignValues:
+        """Return settings by name, spread evenly over the ranges and choices: the designs of a survey. They are the same for the same seed.
+
+        Parameters
+        ----------
+        count : int
+            How many; a Sobol sequence is evenest for a power of two.
+        method : {"sobol", "latin", "random"}, optional
+            A scrambled Sobol sequence, the default, a Latin hypercube, or pseudo-random numbers.
+        seed : int, optional
+            The seed, 0 by default.
+
+        Returns
+        -------
+        mapping of str to array (count,)
+            The settings [SI].
+        """
+        many = len(self.choices) > 1
+        unit = unit_points(count, len(self.ranges) + many, method, seed)
+        choice = (unit[:, -1] * len(self.choices)).astype(int) if many else np.zeros(count, int)
+        return self.settings(unit[:, : len(self.ranges)], choice)
+
+
+def setting_words(plan: Plan, settings: Mapping[str, Any], place: int) -> str:
+    """Return one of some settings (m,) in words: `MK = 800 mm, M = (220, 950) mm`; a point's is a pair."""
+    words = []
+    for name, value in settings.items():
+        if isinstance(value, tuple):
+            words.append(f"{name} = ({', '.join(shown_number(float(part[place]), 'mm') for part in value)}) {unit_sign('mm')}")
+        else:
+            words.append(f"{name} = {show(float(value[place]), unit_of(plan, name))}")
+    return ", ".join(words)
+
+
+def range_of(name: str, given: object) -> tuple[float, float]:
+    """Return a range; DefinitionError unless it is (low, high)."""
+    if not is_pair(given) or given[0] > given[1]:
+        raise unfit(name, given, "is no range; write (low, high) in SI, or a list [first, second] of choices")
+    return amount_or_float(given[0]), amount_or_float(given[1])
+
+
+def is_pair(given: object) -> TypeGuard[Sequence[float]]:
+    """Return whether something is two numbers."""
+    return is_listed(given) and len(given) == 2 and all(map(is_number, given))
+
+
+MOST_SETTINGS = 1 << 30
+"""Designs of one sample."""
+
+METHODS = ("sobol", "latin", "random")
+
+
+def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
+    """Return points (count, k) spread evenly over [0, 1), the same for the same seed.
+
+    By a scrambled Sobol sequence, evenest where count is a power of two, a Latin hypercube, or pseudo-random numbers.
+    """
+    require_whole("count", count, "a whole number of designs is expected, at least 1", least=1)
+    require(count <= MOST_SETTINGS, "count", count, "so many designs do not fit into memory; ask for fewer")
+    one_word("method", method, METHODS)
+    require_whole("seed", seed, "a whole number is expected, at least 0", least=0)
+    if not k:
+        return np.empty((count, 0))
+    from scipy.stats import qmc
+
+    random = np.random.default_rng(seed)
+    if method == "random":
+        return np.asarray(random.random((k, count)).T)
+    if method == "latin":  # every coordinate has one point in each of count equal intervals
+        return np.asarray(qmc.LatinHypercube(k, seed=random).random(count))
+    engine: Any = qmc.Sobol(k, seed=random)
+    power = int(count).bit_length() - 1
+    return np.concatenate([engine.random_base2(power), engine.random(int(count) - (1 << power))])
+
+
+# Checks of a study's machine, and of its dimensions.
+
+
+def unit_of(plan: Plan, name: str) -> str:
+    """Return the unit a dimension is shown in: its own, mm for lengths, deg for angles, "" where nothing says, as of a side."""
+    if is_side(name):
+        return ""
+    found = plan.table.entries[plan.table.spellings[name][0]]
+    return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
+
+
+def check_one_design(machine: Mechanism) -> None:
+    """Raise DefinitionError for a batch of designs, and for anything but a mechanism."""
+    require_one_design(require_mechanism(machine).dimensions, f"{type(machine).__name__}: a study starts from one design")
+
+
+def check_in_count(title: str, what: str, number: object, count: int) -> None:
+    """Raise DefinitionError for anything but the number of one of some designs or curves, from 0 on."""
+    fits = is_whole(number) and 0 <= number < count
+    ensure(fits, f"{title}: there is no {what} {cited(number)}; numbers go from 0 to {count - 1}.")
+
+
+def check_vary(machine: Mechanism, what: str, over: object) -> None:
+    """Raise DefinitionError where the designs of a study, or strokes, are given as `over`."""
+    if over is None:
+        return
+    remedy = "name its strokes, such as S=[0.0, 0.1]" if what == "zone" else "let measure(machine) say at which strokes it looks"
+    expected = f"a {what} varies designs, vary=, and has no over=; {remedy}"
+    if isinstance(over, Mapping) and any(name in machine for name in over):
+        expected = "dimensions are varied by vary=, strokes run by over=; write vary="
+    raise unfit(f"{machine.plan.title}: {what}(over", over, expected)
+
+
+WHOLE_POSES = {1: 101, 2: 25, 3: 13, 4: 8, 5: 6, 6: 5}
+"""Poses of each stroke at which a machine is looked at that is to be assembled over all of them."""
+
+
+def why_not_assembled(machine: Mechanism) -> str:
+    """Return why a machine cannot be assembled over the box of its whole strokes, in one line; "" for one that can."""
+    count = WHOLE_POSES.get(len(machine.strokes), 3)
+    axes = [np.linspace(each.start, each.end, count) for each in machine.strokes.values()]
+    try:
+        at: dict[str, Any] = dict(zip(machine.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
+        machine.at(**at)
+    except AssemblyError as error:
+        return " ".join(str(error).split())
+    return ""

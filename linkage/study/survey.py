@@ -25,8 +25,8 @@ from ..frozen import FrozenDict, immutable, read_only
 from ..mechanism import Mechanism
 from ..shown import Shown
 from .checkpoint import Checkpoint, facts_of, how_far
-from .checks import check_in_count, check_one_design, check_vary
 from .designs import Array, Batch, Designs, StudyWork, Task, check_same_results, measure_batch
+from .space import check_in_count, check_one_design, check_vary
 
 TRIES = 3
 PICKLING_ERRORS = (PicklingError, AttributeError, TypeError, ImportError)

@@ -21,9 +21,8 @@ from ..plan import Plan, plan_measure
 from ..program import FloatArray, Node, RunOptions, gradient
 from ..quantities import is_number, is_whole
 from ..units import SI, display_unit, require_measure, show, unit_or_none
-from .box import is_pair, unit_points
-from .checks import unit_of
 from .measured import Measured, StudyPoses, measured_title, number_bound, traced_number
+from .space import is_pair, unit_of, unit_points
 
 LAWS = ("normal", "uniform", "truncated")
 SIGMAS = 3.0

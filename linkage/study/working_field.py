@@ -38,9 +38,9 @@ from ..statics.applied import case_of
 from ..statics.carried import PROBE, SLIPPING, TIPPING, Direction, LoadAt, direction_words, greatest_load, pull_direction
 from ..units import show
 from ..vectors import FloatArray, Index, Mask
-from .checks import check_one_design
 from .load_rule import LoadRule, rule_of
 from .reach import Reach
+from .space import check_one_design
 
 OUT_OF_REACH = noted("out of reach")
 NOT_LIMITED = noted("not limited")

@@ -17,11 +17,9 @@ from ..motion import Motion, at_values, highest, out_of_reach, places_text, stro
 from ..motion.measures import words_of
 from ..numeric.box import highest_in
 from ..vectors import FloatArray, Index, Mask
-from .box import Box, setting_words
-from .checks import check_one_design, check_vary
-from .measured import QuantityLike, StudyPoses, function_value, quantity_values
+from .measured import QuantityLike, StudyPoses, divisors_of, function_value, quantity_values
 from .poles import FAR, TINY, boundless_error
-from .sampling import divisors_of
+from .space import Box, check_one_design, check_vary, setting_words
 
 POSES = 51
 MOST_RANGES = 8

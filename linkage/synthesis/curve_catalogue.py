@@ -24,12 +24,10 @@ from ..program import FloatArray, Kernel, Level, RunOptions
 from ..quantities import is_whole, x, y
 from ..shown import Shown
 from ..study.checkpoint import digest
-from ..study.checks import check_in_count, check_one_design
 from ..study.designs import DesignValues
-from ..study.measured import traced_number
+from ..study.measured import all_placed, traced_number
 from ..study.problem import Problem
-from ..study.sampling import all_placed
-from ..study.space import Space, Varied
+from ..study.space import Space, Varied, check_in_count, check_one_design
 from ..study.survey import Executor, Progress, check_executor, check_progress, progress_told, survey
 from .closed_curves import ClosedCurves, ComplexArray, drawn_curve, laid_onto
 from .fit import TURN, WHOLE, Fit, Timing

@@ -28,7 +28,7 @@ from ..plugins import Plugins
 from ..quantities import Dimension, Member, Stroke, angle, ref
 from ..shown import HasSentence, Shown, ShownList
 from ..steps import Guide
-from ..study.checks import check_one_design
+from ..study.space import check_one_design
 from ..study.variants import class_like, variant
 from ..units import require_number, show
 from ..vectors import LEFT, RIGHT, FloatArray, Side

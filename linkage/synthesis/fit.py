@@ -17,9 +17,8 @@ from ..numeric.line import Index
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, RunOptions
 from ..study.designs import DesignValues
-from ..study.measured import traced_number
+from ..study.measured import all_placed, traced_number
 from ..study.problem import Problem, is_still
-from ..study.sampling import all_placed
 from ..study.solver import MET, LeastSquares
 from .tasks import TaskRows
 

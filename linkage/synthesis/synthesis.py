@@ -19,11 +19,10 @@ from ..motion import stroke_display_unit
 from ..motion.measures import Measure, measure_of
 from ..motion.motion_verdicts import transmissions
 from ..shown import HasSentence, Shown, text_columns
-from ..study.checks import check_one_design, unit_of
 from ..study.optimise import check_counts
 from ..study.optimum import heading_with_unit, rounded_values, tried_names
 from ..study.problem import Problem
-from ..study.space import size_of_machine
+from ..study.space import check_one_design, size_of_machine, unit_of
 from ..study.survey import check_progress, progress_told
 from ..study.variants import ENDING, is_side
 from ..units import deg, display_unit, factor, mm, show, shown_in

@@ -19,14 +19,12 @@ from ..motion.measures import Constraint, FixedNumber, Measure, conditions_of, i
 from ..numeric.descent import without_repeats
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
-from ..study.box import unit_points
 from ..study.checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine
-from ..study.checks import check_one_design
 from ..study.designs import Array
 from ..study.measured import traced_number
 from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
 from ..study.problem import Problem, end_words
-from ..study.space import FAR, Space, size_of_machine
+from ..study.space import FAR, Space, check_one_design, size_of_machine, unit_points
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
 from ..study.variants import fitted_rows
 from ..units import show

@@ -21,8 +21,8 @@ from ..motion.strokes import TURN, is_in_degrees
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import angle, numbers_in, ref, x, y
-from ..study.checks import check_one_design
 from ..study.problem import is_still, ranges_of
+from ..study.space import check_one_design
 from ..study.variants import Range
 from ..units import require_measure, require_number
 

@@ -17,8 +17,8 @@ from linkage.errors import DefinitionError, ensure, known_name
 from linkage.loads.point import on_slope
 from linkage.motion import Motion, last_holding
 from linkage.program import FloatArray
-from linkage.study.checks import check_one_design
 from linkage.study.reach import Reach
+from linkage.study.space import check_one_design
 
 from .duty import LIFTING
 from .machine import DRIVEN, Crane

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from linkage import DefinitionError, FileError
 from linkage.files import from_dict, load, to_dict, to_json, to_toml
 from linkage.files.expression import arrow_in, expression
-from linkage.files.names import Names
+from linkage.files.source import Names
 from tests.for_all import for_all
 from tests.linkage.files.file_machines import changed
 

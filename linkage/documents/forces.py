@@ -207,7 +207,7 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     if not rows:
         return
     count = sum(int(place.sampled.reached.sum()) for place in subject.judge.places)
-    pressures = ", ".join(f"{name} {' … '.join(shown_number(end, 'kN', '.1f') for end in ends)}" for name, ends in held.items())
+    pressures = ", ".join(f"{name} {' … '.join(shown_number(end, 'kN', '.1f') for end in ends if end)}" for name, ends in held.items())
     yield said(
         "At the relief pressure: a stop holds {point} in either direction. One cylinder after the other presses and the others hold, "
         "until the first relief valve opens. Where no relief valve is declared, the pump's pressure is the highest. The machine's own "
@@ -227,21 +227,21 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
 
 
 def blocked_cylinders(subject: ReportSubject) -> dict[str, tuple[float, float]]:
-    """Return the members whose thrust a relief valve bounds, with the least and the greatest thrust [N]."""
+    """Return the members whose thrust a relief valve bounds, with the least and the greatest thrust [N]; 0 of a side that does not work."""
     found = {}
     for name, element in subject.machine.plan.of_kind(TwoPoint).items():
         try:
-            low, high = (np.ravel(np.asarray(each, float)) for each in element.bounds(subject.curve, False))
+            low, high, pull, push = (np.ravel(each) for works in (False, True) for each in element.bounds(subject.curve, works))
         except LinkageError:
             continue
-        ends = float(np.nanmin(low)), float(np.nanmax(high))
+        ends = float(np.nanmin(low)) if np.nanmin(pull) < 0.0 else 0.0, float(np.nanmax(high)) if np.nanmax(push) > 0.0 else 0.0
         if np.isfinite(ends).all() and ends[0] < ends[1]:
             found[name] = ends
     return found
 
 
-def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> list[Blocked]:
-    """Return the largest force of each joint over some poses, cylinders and both of their ways.
+def worst_blocked(subject: ReportSubject, point: str, held: Mapping[str, tuple[float, float]]) -> list[Blocked]:
+    """Return the largest force of each joint over some poses, cylinders and the ways in which they press.
 
     A stop pushes with a force along the way on which the cylinder would move the point, until the first relief valve opens: the
     cylinder's own, or that of another one that holds. Forces are affine in it, so that the machine's own loads and two unit forces tell it.
@@ -252,7 +252,7 @@ def worst_blocked(subject: ReportSubject, point: str, held: Iterable[str]) -> li
         for case in place.cases(subject.judge.acting):
             acting = Acting(case=subject.judge.acting.case or (None if case == PLAIN_CASE else case))
             stop = Stop.of(poses, point, held, acting) if stop is None else replace(stop, own=pin_forces(poses, acting=acting))
-            for cylinder, pushes in product(stop.bounds, (True, False)):
+            for cylinder, pushes in ((name, way) for name, way in product(stop.bounds, (True, False)) if held[name][way]):
                 force, way, opens = stop.until_open(cylinder, pushes)
                 for key, cells, size in stop.joint_sizes(force, way):
                     if np.isnan(size).all():

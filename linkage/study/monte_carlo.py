@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TypeVar
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, ensure, is_listed, known_name, one_word, require, unwarned
 from ..frozen import FrozenDict, immutable
+from ..loads import PLAIN_CASE, Acting
 from ..mechanism import Mechanism
-from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, measure_of
+from ..motion import Judge, Request
+from ..motion.measures import At, Condition, Constraint, Integral, Leaf, Measure, Worst, conditions_of, in_situation, measure_of
 from ..motion.requests import is_of_force, may_be_unlimited
 from ..program import RunOptions
 from ..quantities import is_number
@@ -144,8 +148,9 @@ class MonteCarlo:
         plan = self.machine.plan
         tolerances = ", ".join(tolerance_words(plan, name, each) for name, each in self.tolerances.items())
         lines = [f"{plan.title}, {self.count} machines with {tolerances}; {self.at}."]
-        if any(map(is_of_force, [*self.of.values(), *(leaf.quantity for leaf in leaves_measured(self.of, self.conditions))])):
-            lines.append("Forces for which no case or direction is asked are at rest, under the machine's own loads.")
+        alone = [each for each in self.of.values() if not isinstance(each, Measure)]
+        if any(map(is_of_force, alone + [leaf.quantity for leaf in leaves_measured(self.of, ()) if not leaf.sense])):
+            lines.append("Forces at a pose for which no case or direction is asked are at rest, under the machine's own loads.")
         if self.assembled < 1.0:
             lines.append(f"{share_words(1.0 - self.assembled)} cannot be assembled everywhere and count as lost.")
         shown = {str(each): constraint_words(plan, each) for each in self.conditions}
@@ -189,8 +194,9 @@ def monte_carlo(
     tolerances : mapping of str to Tolerance or float
         By dimension [SI]; the dimensions are independent of each other. A number is the limit of a normal law at three sigmas.
     subject_to : sequence of conditions, optional
-        What a good machine keeps. Measures and conditions look at the strokes alone; an integral looks between them, too. Forces are at
-        rest under the machine's own loads, unless a request says `case=` or `direction=`.
+        What a good machine keeps. Measures and conditions look at the strokes alone; an integral looks between them, too. Conditions and
+        `most` and `least` count the load cases and directions of motion that `machine.answers` counts. Else forces are at rest under
+        the machine's own loads, unless a request says `case=` or `direction=`.
     count : int, optional
         The number of designs, 16384 by default.
     percentiles : sequence of float, optional
@@ -228,17 +234,23 @@ def monte_carlo(
     order = tuple(sorted({float(each) for each in percentiles}))
     way = RunOptions(one_word("backend", backend, ("numpy", "numba")), threads)
     designs = sampled_designs(machine, named, count, method, seed)
+    counted = Counted(machine.judge(poses.base), machine.judge().cases)
+    judged = {title: counted.worst_of(each) for title, each in asked.items()}
+    split = [(condition, each) for condition in conditions for each in counted.split(condition)]
     with unwarned(), np.errstate(all="ignore"):
         run = MonteCarloRun(poses, machine.replaced(**designs), count, way, order)
-        run.measure(asked, conditions)
+        run.measure(judged, [each for _, each in split])
         bands = {}
-        for title, quantity in asked.items():
+        for title, quantity in judged.items():
             share, mean, sigma, *cuts = map(poses.shaped, run.moments[title])
             own = poses.shaped(poses.values(machine, quantity, RunOptions())[0])
             low, high = map(poses.shaped, worst_case(machine, poses, quantity, named))
-            unit = display_unit(measure_of(plan, quantity), "mm")
+            unit = display_unit(measure_of(plan, asked[title]), "mm")
             bands[title] = Band(title, unit, own, mean, sigma, FrozenDict(zip(order, cuts, strict=True)), share, low, high)
-    kept = {str(each): float(np.mean(good)) for each, good in zip(conditions, run.kept, strict=True)}
+    each_kept = {id(condition): np.ones(count, bool) for condition in conditions}
+    for (condition, _), keeps in zip(split, run.kept, strict=True):
+        each_kept[id(condition)] &= keeps
+    kept = {str(each): float(np.mean(each_kept[id(each)])) for each in conditions}
     good = ~run.lost & np.all([np.ones(count, bool), *run.kept], axis=0)
     assembled = float(np.mean(~run.lost))
     return MonteCarlo(
@@ -253,6 +265,50 @@ def limits_listed(machine: Mechanism, given: object) -> tuple[Constraint, ...]:
     for each in found:
         ensure(each.symbol != "==", f"{machine.plan.title}: {each}: no machine keeps an equation to the last digit; write two limits.")
     return found
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WorstOf(Measure):
+    """The worst of one measure in several situations; where nothing limits it in one, that of the others."""
+
+    each: tuple[Leaf, ...]
+
+    @property
+    def leaves(self) -> tuple[Leaf, ...]:
+        return self.each
+
+    def from_leaves(self, value: Callable[[Leaf], Any]) -> Any:
+        return reduce(np.fmin if self.each[0].sense < 0.0 else np.fmax, map(value, self.each))
+
+    def __str__(self) -> str:
+        return str(self.each[0])
+
+
+@dataclass(frozen=True)
+class Counted:
+    """The situations that count, as `machine.answers` counts them: those of a judge of the poses, in the load cases that occur."""
+
+    judge: Judge
+    cases: Sequence[str]
+
+    def actings(self, leaves: Sequence[Leaf]) -> list[Acting]:
+        """Return the situations in which requests are judged, each once."""
+        requests = [leaf.quantity for leaf in leaves if isinstance(leaf.quantity, Request)]
+        found = dict.fromkeys(acting for request in requests for acting in self.judge.actings(request))
+        return [each for each in found if (each.case or PLAIN_CASE) in self.cases]
+
+    def worst_of(self, quantity: Measured) -> Measured:
+        """Return a greatest or least value over all situations; anything else as it is."""
+        if not (isinstance(quantity, Leaf) and quantity.sense):
+            return quantity
+        found = [in_situation(quantity, acting) for acting in self.actings([quantity])]
+        return WorstOf(tuple(leaf for each in found for leaf in each.leaves)) if found else quantity
+
+    def split(self, condition: Constraint) -> list[Constraint]:
+        """Return a condition in every situation: what is asked at rest alone goes with all that moves."""
+        known = self.actings(condition.margin.leaves)
+        among = [each for each in known if each.direction is not None] or known or [Acting()]
+        return [replace(condition, left=in_situation(condition.left, each), right=in_situation(condition.right, each)) for each in among]
 
 
 def leaves_measured(asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> list[Leaf]:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
+from hydraulics import Cylinder, LiftCircuit, pressure, reserve
 from linkage import (
     LEFT,
     RIGHT,
@@ -15,9 +16,13 @@ from linkage import (
     Dimension,
     Dyad,
     Ground,
+    LoadCase,
     Mechanism,
     OnLink,
+    Over,
+    PinFriction,
     Stroke,
+    Weight,
     angle,
     at,
     deg,
@@ -446,3 +451,35 @@ def test_a_picture_of_a_tornado_has_the_longest_bar_at_the_top():
     assert [text.get_text() for text in ax.get_yticklabels()] == ["MK ±5 mm", "CD ±5 mm"]  # KFG has no effect
     widths = [patch.get_width() for patch in ax.patches if patch.get_height() > 0.5]
     assert_allclose(sorted(widths[:4]), sorted(change / deg for bar in found.bars[:2] for change in (bar.low, bar.high)))
+
+
+class InCases(Mechanism):
+    """A lever on a cylinder, with load cases of which one does not occur."""
+
+    S = Stroke(0.0, 0.25)
+    A, O = Ground(0.20, 0.55), Ground(0.30, 1.15)
+    B = Dyad(A, O, AB=0.50 + S, OB=0.30, side=RIGHT)
+    G = OnLink(O, B, OG=0.90, BOG=-40 * deg)
+    load = Weight(G, mass=1400)
+    heavy, light, never = (LoadCase(name, scale={"load": scale}) for name, scale in (("heavy", 1.2), ("light", 0.5), ("never", 3.0)))
+    ram = Cylinder(A, B, bore=80 * mm, rod=45 * mm)
+    pump = LiftCircuit(ram, pressure=18e6, mechanical_efficiency=0.9)
+    runs = Over(cases=["plain", "heavy", "light"])
+
+
+class Rubbing(InCases):
+    rub = PinFriction("O", radius=30 * mm, coefficient=0.15)
+
+
+@pytest.mark.parametrize("structure", [InCases, pytest.param(Rubbing, marks=pytest.mark.slow)])
+def test_a_measure_and_a_condition_count_the_cases_and_directions_that_answers_count(structure):
+    machine, strokes = structure(), {"S": np.array([0.0, 0.25])}
+    over = Over.poses(cases=["plain", "heavy", "light"], **strokes)
+    asked = [most(drive_force()), least(drive_force()), least(reserve("ram")), most(pressure("ram")), most(pin_force("O"))]
+    told = machine.answers(asked, over=over)
+    limits = [each <= share * one.value for each, one in zip(asked, told, strict=True) if each.sense > 0.0 for share in (0.99, 1.01)]
+    found = monte_carlo(machine, asked, {"OB": (0.0, 1e-9)}, subject_to=limits, count=2, **strokes)
+    for each, one in zip(asked, told, strict=True):
+        band = found[each]
+        assert_allclose([band.nominal, band.mean, band.low, band.high], one.value, rtol=1e-6)
+    assert [*found.kept.values()] == [0.0, 1.0] * 3 and "at rest" not in str(found)

@@ -331,7 +331,8 @@ def width_words(plan: Plan, designs: Mapping[str, Numbers]) -> str:
     used = {name for member in plan.members.values() if not isinstance(member, Guide) for name in needs(member)}
     far = {name for guide in plan.of_kind(Guide).values() for name in needs(guide)} - used | plan.of_kind(GuideCross).keys()
     try:
-        reading = plan.read({**inputs_at(plan, plan.sketch_strokes), **designs})
+        inputs = {**inputs_at(plan, plan.sketch_strokes), **designs}
+        reading = plan.read({name: np.asarray(value) for name, value in inputs.items()})  # of arrays, so that nothing is divided by zero
     except AssemblyError:
         return ""
     places = [reading.at(name) for name in plan.points if name not in far]

@@ -160,17 +160,17 @@ class Evaluation:
                 block[rows, here.empty[number]] = np.nan
         return look
 
+    @np.errstate(all="ignore")
     def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, FloatArray], near: Mask, look: CloseLook) -> None:
         """Fill the `bad` poses of a block, from their paired inputs; `near`: for each request, where it has to be looked at closely."""
         plan, lost = self.grid.plan, ~np.isfinite(block[:, bad]).all(axis=0)
-        with np.errstate(all="ignore"):
-            lost |= negative(plan, plan.reading(inputs), lost.shape)
-            if lost.any():  # where something that the requests are built from cannot be placed
-                names, failed = members_behind(plan, self.requests), np.zeros(int(lost.sum()), bool)
-                for name, mask in failures(plan, plan.read({name: value[lost] for name, value in inputs.items()}), failed.shape):
-                    if name in names:
-                        failed |= mask
-                lost[lost] = failed
+        lost |= negative(plan, plan.reading(inputs), lost.shape)
+        if lost.any():  # where something that the requests are built from cannot be placed
+            names, failed = members_behind(plan, self.requests), np.zeros(int(lost.sum()), bool)
+            for name, mask in failures(plan, plan.read({name: value[lost] for name, value in inputs.items()}), failed.shape):
+                if name in names:
+                    failed |= mask
+            lost[lost] = failed
         refused, doubtful = near & ~lost, np.zeros(near.shape, bool)
         here, among = refused.any(axis=0), np.flatnonzero(refused.any(axis=1)).tolist()
         at = {name: value[here] for name, value in inputs.items()}

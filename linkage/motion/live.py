@@ -19,7 +19,7 @@ import numpy as np
 from ..assembly import angles_text, constants_text, groups_text, json_of
 from ..errors import DefinitionError, LawError, UntracedError
 from ..frozen import FrozenDict
-from ..plan import ArrayReading, Plan, rate_name
+from ..plan import ArrayReading, Loop, Plan, rate_name
 from ..program import Inputs, Level, Node, ancestors, arrow_function, replaced
 from ..steps import Point
 from .dead_points import REFUSE
@@ -87,7 +87,7 @@ def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, 
     checks = list(checks_of(plan))
     loops = loops_of(plan)
     steep = [each.differentiated(plan) for each in requests]  # near dead points of which loops it is refused, by their places
-    keys = [(own, tuple(k for k, name in enumerate(loops) if name in each)) for own, each in zip(nodes, steep, strict=True)]
+    keys = [(own, tuple(k for k, loop in enumerate(loops) if loop.step in each)) for own, each in zip(nodes, steep, strict=True)]
     rows, first, refused = list[Node](), dict[object, int](), dict[tuple[int, ...], list[int]]()
     for own, behind in keys:
         if first.setdefault((own, behind), len(rows)) == len(rows):
@@ -208,19 +208,26 @@ def missing_at(plan: Plan, name: str) -> Node:
         return graph.constant(math.nan)
 
 
-def loops_of(plan: Plan) -> dict[str, tuple[Node, Node]]:
-    """Return for every loop that moves the sine of its links' angle, and how much larger the numbers are whose difference closes it."""
-    found: dict[str, tuple[Node, Node]] = {}
-    graph = plan.trace.graph
-    for loop in plan.trace.loops:
+def loops_of(plan: Plan) -> dict[Loop, tuple[Node, Node]]:
+    """Return for every loop that moves the sine of its links' angle, and how much larger the numbers are whose difference closes it.
+
+    A direction that is taken between points loses digits as a loop does, by their distance over the machine's size; so does a slot's.
+    """
+    found: dict[Loop, tuple[Node, Node]] = {}
+    graph, extent = plan.trace.graph, np.sqrt(plan.trace.extent)
+    for loop in dict.fromkeys(plan.trace.loops):
         member = plan.members.get(loop.step)
-        if member is None or loop.kind not in ("links", "guides") or (isinstance(member, Point) and not member.closes):
+        if member is None or not plan.moves(member):
             continue
-        if not plan.moves(member):
+        if loop.kind == "meeting":
+            found[loop] = graph.node(loop.terms[0] / extent), graph.one
+        elif loop.kind == "length" or (isinstance(member, Point) and not member.closes):
             continue
-        if loop.kind == "guides":
-            found[loop.step] = loop.terms[0], graph.one
+        elif loop.kind == "guides":
+            found[loop] = loop.terms[0], graph.one
         else:
             radicand, scale, size = loop.terms
-            found[loop.step] = graph.node(np.sqrt(radicand) / scale), graph.node(size / (scale * scale))
+            is_way = scale.op == "sqrt" and scale.args[0].origin is size  # to the pin of a slot
+            span = np.maximum(scale, extent) if is_way else scale
+            found[loop] = graph.node(np.sqrt(radicand) / span), graph.node(size / (scale * scale))
     return found

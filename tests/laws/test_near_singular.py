@@ -49,14 +49,15 @@ BESIDE = 16
 
 
 def told(ask):
-    """Return what is answered, None where it is refused, and the errors that were told of."""
-    with warnings.catch_warnings(record=True) as found:
+    """Return what is answered, None where it is refused, and the errors that were told of; nothing warns of a division."""
+    with warnings.catch_warnings(record=True) as found, np.errstate(all="warn"):
         warnings.simplefilter("always")
         try:
             answer = ask()
         except AssemblyError:
-            return None, []
-    return answer, [each.message.estimate for each in found if isinstance(each.message, SingularWarning)]
+            answer = None
+    assert not any(each.category is RuntimeWarning for each in found), [str(each.message) for each in found]
+    return answer, [] if answer is None else [each.message.estimate for each in found if isinstance(each.message, SingularWarning)]
 
 
 class Truth:
@@ -225,6 +226,45 @@ def test_the_double_toggle_is_refused_as_its_output_is():
     found, warned = told(lambda: motion.ratio(x("B"), order=2))  # it is exact, and asked for by itself
     assert_allclose(found, -np.cos(1e-4), rtol=1e-12)
     assert max(warned) < 1e-12
+
+
+class Folded(Mechanism):
+    """A cylinder that closes to nothing between its pins, whose lever is as long as the way to the lever's pivot."""
+
+    S = Stroke(0.1, 2.0)
+    O, K = Ground(0, 0), Ground(1, 0)
+    B = Dyad(K, O, KB=S, OB=1, side=LEFT)
+
+
+class Propped(Mechanism):
+    """Two bars between fixed pins, which one design puts in one place."""
+
+    S = Stroke(0.0, 0.5)
+    O, C, D = Ground(0, 0), Ground(2, 0), Ground(3, 1)
+    A = Dyad(O, C, OA=1.6 + S, CA=1, side=LEFT)
+    B = Dyad(C, D, CB=2, DB=2, side=LEFT)
+
+
+@for_all("S", [0.0, 1e-300, 1e-12, 1e-6])
+def test_a_length_of_nothing_is_a_place_at_every_door(S):
+    """By hand: B goes round O, clockwise, by twice the arc sine of half the length."""
+    machine, turned = Folded(), -2.0 * np.arcsin(0.5 * S)
+    doors = (
+        lambda: machine.at(S=S)["B"],
+        lambda: machine.evaluate(["B"], S=S)[0],
+        lambda: machine.function(["B"])(S),
+        lambda: machine.evaluate(["B"], S=[S, 0.5])[0][:, 0],
+    )
+    for door in doors:
+        assert_allclose(told(door)[0], [np.cos(turned), np.sin(turned)], rtol=0, atol=1e-15)
+
+
+def test_two_fixed_points_in_one_place_fail_in_words():
+    machine = Propped(D=(2.0, 0.0))
+    (verdict,) = machine.verdicts()
+    assert not verdict.ok
+    assert "C and D coincide there" in str(verdict)
+    assert not machine.at(S=0.1, unreachable="nan").limits()["S"].intervals
 
 
 class Turned(Mechanism):

@@ -26,6 +26,7 @@ from linkage.motion import live_text
 from linkage.reports.results import results
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
+from tests.laws import near_singular
 from tests.linkage.assembly.test_followed_angles import DragLink, Plane
 from tests.linkage.assembly.test_groups import Platform
 from tests.linkage.motion import in_node
@@ -107,6 +108,22 @@ def test_ratios_and_forces_are_refused_next_to_a_dead_point():
         wanted = Toggle().evaluate([ratio("B"), drive_force()], unreachable="nan", S=dead + offsets)
     np.testing.assert_array_equal(np.isfinite(found.values[0, 2:]), np.isfinite(np.vstack(wanted)))
     assert not np.isfinite(found.values[0, 2:, -1]).any()
+
+
+@NEEDED
+def test_what_python_refuses_next_to_singular_poses_has_no_value_here():
+    """The ratio of a point and the force of its weight, next to poses of slots, levers and guides whose points come together."""
+    jobs = []
+    for seed in (2, 164, 172, 174, 175, 182, 184, 195):
+        machine, strokes, target, _ = near_singular.pose(seed)
+        loaded = type(machine.__name__, (machine,), {"load": Weight(target, mass=10.0)})
+        asked = {"ratio": ratio(target), "force": drive_force()}
+        jobs.append(Job(loaded, asked, {}, {name: np.array([value]) for name, value in strokes.items()}))
+    for job, found in zip(jobs, swept(jobs), strict=True):
+        with unwarned():
+            wanted = np.vstack(job.machine().evaluate([*job.asked.values()], unreachable="nan", **job.strokes))
+        assert not np.isfinite(wanted).any(), job.machine.__name__
+        assert not np.isfinite(found.values[0]).any(), job.machine.__name__
 
 
 @NEEDED

@@ -1,4 +1,4 @@
-"""Trains of more than four links: published angles to 16 digits, a radial engine, a rod through its change points."""
+"""Trains of more than four links: published angles, forces in motion, a radial engine, a rod through its change points."""
 
 import numpy as np
 from numpy.testing import assert_allclose
@@ -6,22 +6,29 @@ from numpy.testing import assert_allclose
 from linkage import (
     LEFT,
     RIGHT,
+    Acting,
     Crank,
     Dyad,
+    Force,
     Ground,
     Guide,
     Link,
+    LinkMass,
     Mechanism,
     Offset,
     OnLink,
+    Pin,
     SliderDyad,
     Spring,
     Stroke,
     Vector,
     Weight,
     deg,
+    drawn,
     driving_force,
+    pin_forces,
 )
+from tests.for_all import for_all
 from tests.mechanisms.free_bodies import slope
 
 TURN = 2 * np.pi
@@ -101,3 +108,58 @@ def test_side_rod_goes_through_its_change_points():
     assert SideRod().mobility == 1
     assert_allclose(motion["B"] - motion["A"], [[1.0] * 25, [0.0] * 25], rtol=0, atol=1e-15)
     assert_allclose(driving_force(motion), 10 * 9.80665 * 0.3 * np.cos(motion.strokes["phi"]), rtol=0, atol=1e-12)
+
+
+def six_bar(points, links, load):
+    """Return the class of a six-bar drawn by its points, A its crank's pivot; links (points, mass), 0.1 and 0.2 kg m2, and a force on one.
+
+    The centres of gravity lie in the middle of the points of a link, and so does the point where the force acts.
+    """
+    at = {name: complex(*place) for name, place in points.items()}
+    ground = ("A", *(name for name in "DG" if sum(name in link for link, _ in links) == 1))
+    body = {"phi": Stroke(-60 * deg, 42 * deg), "sketch": drawn(phi=0.0)} | {name: Ground(*points[name]) for name in ground}
+    body |= {"B": Crank("A", at=points["B"], angle="phi")}
+    body |= {name: Pin(at=place) for name, place in points.items() if name not in (*ground, "B")}
+    for number, (link, mass) in enumerate(links):
+        first, second, *_ = names = list(link)
+        middle = (sum(at[name] for name in names) / len(names) - at[first]) / (at[second] - at[first]) * abs(at[second] - at[first])
+        body[f"link{number}"] = Link(" ".join(names))
+        body[f"mass{number}"] = LinkMass(
+            " ".join(names), mass=mass, at=(middle.real, middle.imag), inertia=0.02 * mass, gravity=(0, -9.81)
+        )
+    link, force = load
+    centre = sum(at[name] for name in link) / len(link)
+    body["K"] = OnLink(link[0], link[1], at=(centre.real, centre.imag))
+    return type("SixBar", (Mechanism,), body | {"load": Force("K", force)})
+
+
+WATT = six_bar(
+    dict(A=(-3.74, -2.41), B=(-2.72, 0.91), C=(1.58, 0.43), D=(-0.24, 4.01), E=(5.08, 5.31), F=(8.14, 3.35), G=(7.32, -3.51)),
+    [("AB", 5), ("BCD", 10), ("DE", 5), ("EF", 10), ("CFG", 5)],
+    ("CFG", (50, 25)),
+)
+STEPHENSON = six_bar(
+    dict(A=(7, 4), B=(5, 16), C=(25, 25), D=(23, 10), E=(18, 35), F=(43, 32), G=(45, 17)),
+    [("AB", 5), ("BCE", 10), ("CD", 5), ("EF", 10), ("FG", 5)],
+    ("FG", (50, 0)),
+)
+
+
+@for_all(
+    ("machine", "turned", "torques"),
+    [
+        (WATT, [0, 2, 5, -3, -5], [1844.3174729930561, 6371.7624462305657, 685159.01702830743, -4155.8421407911483, -102001.44091590792]),
+        (STEPHENSON, [0, 28, 41, -11, -58], [-243.85439295323431, 585.80769911815651, 3363564.4158830228, -25.041809859119148, -10985922.290130081]),
+    ],
+)  # fmt: skip
+def test_six_bars_in_motion_up_to_their_dead_points(machine, turned, torques):
+    """The crank's torque at 10 rev/min, worked out in MATLAB: PMKS_Verification, cases watt_i and stephenson_iii_example_2."""
+    motion, speed = machine().at(phi=np.radians(turned)), 1.0471975511965976
+    moving = Acting(rates={"phi": speed}, accelerations={"phi": 0.0})
+    assert_allclose(driving_force(motion, acting=moving), torques, rtol=1e-11)
+    if machine is WATT:
+        assert_allclose(motion["E"][0], [5.08, 5.0193064678986019, 4.8332738548746104, 5.1312401105150345, 5.1305912844631401], rtol=1e-14)
+        along = motion.acceleration("E", {"phi": speed}, {"phi": 0.0})[1]
+        assert_allclose(along, [-26.434427125168291, 4.6590846972660387, 1046.1535877667122, -124.1283735489433, -1138.1416160987571], rtol=1e-11)
+        held = pin_forces(motion, acting=moving).force("G")[1]
+        assert_allclose(held, [-150.95805411779756, -496.4585725182327, -72868.697721976831, -5.1047005245840431, 5588.0628910527284], rtol=1e-11)

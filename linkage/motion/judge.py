@@ -376,8 +376,8 @@ class Domain:
         ]  # fmt: skip
         if not (seen.lost_share or holes):
             return NONE_LOST
+        deepest, time = (seen.deepest, seen.time) if seen.deepest or not holes else holes[0]
         if self.motion._design_shape:
-            deepest, time = (seen.deepest, seen.time) if seen.deepest else holes[0]
             refused = "" if seen.lost_share else said("some poses are refused")
             return LostPlaces(seen.lost_share, deepest, refused, not self.plan.groups, time)
         with unwarned():
@@ -385,7 +385,7 @@ class Domain:
             errors = [(assembly_error_at(self.motion, *place), *place) for place in places]
         known = [(error, place, time) for error, place, time in errors if error is not None]
         if not known:
-            return LostPlaces(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups, seen.time)
+            return LostPlaces(seen.lost_share, deepest, said("some poses are refused"), not self.plan.groups, time)
         error, place, time = max(known, key=lambda each: each[0].shortfall or 0.0)
         strokes = {name: float(value) for name, value in place.items()}
         return LostPlaces(seen.lost_share, strokes, " ".join(str(error).split()), not self.plan.groups, time)

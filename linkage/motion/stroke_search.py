@@ -57,6 +57,8 @@ LOOKS = 65
 """Poses of each range at which it is looked whether a length follows the stroke."""
 STILL = 1e-9
 """A length that changes by less than this part of its ends' way does not follow a stroke."""
+SETTLED = 1e-12
+"""How far before the end of a group's way its last pose is told, of the stroke: where it ends follows its steps by so much."""
 AGAIN = 1e-6
 """Poses whose points are so near to each other, compared with the linkage, are one, as after a full turn."""
 
@@ -130,25 +132,36 @@ class StrokeLine:
 
         Ends of groups are known already, found on the way. The others are looked for together.
         """
-        found = np.array(pairs, float).reshape(-1, 2)
-        sought = np.full(len(found), not self.plan.solved)
+        found, stroke = np.array(pairs, float).reshape(-1, 2), self.plan.strokes[self.name]
+        sought, before = np.full(len(found), not self.plan.solved), SETTLED * abs(stroke.end - stroke.start)
         for k, (inside, outside) in enumerate(pairs if self.plan.solved else ()):
             at = np.linspace(inside, outside, 65)
             seen = self.motion_at(at)
             known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]
             sought[k] = not known and not np.all(seen.reached)
-            found[k] = (known[0], at[int(np.argmin(seen.reached))]) if known else (inside, outside if sought[k] else np.nan)
+            last = float(np.clip(inside, known[0] - before, known[0] + before)) if known else inside
+            found[k] = (last, at[int(np.argmin(seen.reached))]) if known else (inside, outside if sought[k] else np.nan)
         if sought.any():
             found[sought] = np.transpose(last_holding(self.is_reached, *found[sought].T))
         ends = list[tuple[float, str]]()
-        for last, beyond in found:
+        for (inside, _), (last, beyond) in zip(pairs, found, strict=True):
             failing = ""
             if not np.isnan(beyond):
                 there = self.motion_at(np.array([beyond]))
-                first = (name for name, mask in failures(self.plan, there._reading, there.shape) if mask.any())
-                failing = next((name_or_pins(self.plan, name) for name in first), "")
-            ends.append((float(last), failing))
+                failing = next((name for name, mask in failures(self.plan, there._reading, there.shape) if mask.any()), "")
+            ends.append((self.clear_end(inside, float(last), failing), name_or_pins(self.plan, failing) if failing else ""))
         return ends
+
+    def clear_end(self, inside: float, last: float, step: str) -> float:
+        """Return the last stroke at which the links of a step meet by themselves, which rounding does up to `last`."""
+        rows = [row for row, loop in enumerate(self.clearances.loops) if loop.step == step and loop.kind == "links"]
+
+        def is_clear(at: FloatArray) -> Mask:
+            return np.reshape((self.seen(np.ravel(at))[rows] >= 0.0).all(axis=0), np.shape(at))
+
+        if not rows or is_clear(np.array(last)) or not is_clear(np.array(inside)):
+            return last
+        return float(last_holding(is_clear, inside, last)[0])
 
     def is_reached(self, at: FloatArray) -> Mask:
         """Return the mask of strokes that are reached, of any shape."""

@@ -21,6 +21,7 @@ from linkage import (
     Guide,
     Link,
     Mechanism,
+    OnGuide,
     OnLink,
     Pin,
     SingularError,
@@ -31,6 +32,7 @@ from linkage import (
     angle,
     deg,
     distance,
+    drawn,
     reachable,
 )
 from linkage.documents.outcome import limits_section
@@ -105,6 +107,37 @@ def test_a_group_tells_where_it_stops():
         assert Triad().at(phi=end + inside * 1e-8)["D"].shape == (2,)
         with pytest.raises(AssemblyError, match="D E F"):
             Triad().at(phi=end - inside * 1e-7)
+
+
+class Chute(Mechanism):
+    """A rod from a post to an inclined rail."""
+
+    S = Stroke(0.0, 1.0)
+    O = Ground(0, 0)
+    post, rail = Guide(O, angle=90 * deg), Guide(O, angle=10 * deg)
+    P = OnGuide(post, at=S)
+    X = SliderDyad(P, rail, PX=0.8, side=RIGHT)
+
+
+@for_all(("machine", "sketch"), [(Lift, 0.1), (FourBar, 1.0), (Chute, 0.1), (Triad, 0.0)])
+def test_a_stroke_may_end_where_limits_say_it_ends(machine, sketch):
+    """Of designs that come to a dead point, by a seed; the ends are as exact as those of the formulas above."""
+    random, ends = np.random.default_rng(3), 0
+    ((stroke, _),) = machine.plan.strokes.items()
+    grown = 1.7 if machine is FourBar else 1.0
+    for _ in range(3):
+        design = {name: value * random.uniform(0.97, 1.03) for name, value in machine().dimensions.items() if "." not in name}
+        design |= {"OA": design["OA"] * grown} if machine is FourBar else {}
+        try:
+            found = machine(**design).at(**{stroke: sketch}).limits()[stroke].intervals
+        except AssemblyError:
+            continue
+        (interval,) = (each for each in found if sketch in each)
+        low, high = (end if stop else sketch for end, stop in ((interval.low, interval.low_stop), (interval.high, interval.high_stop)))
+        ended = type("Ended", (machine,), {stroke: Stroke(low, high), "sketch": drawn(**{stroke: sketch})})(**design)
+        assert ended.sweep(5).reached.all()
+        ends += bool(interval.low_stop) + bool(interval.high_stop)
+    assert ends >= 3
 
 
 def test_a_group_is_named_by_all_its_pins():

@@ -23,9 +23,6 @@ from .lift import LiftCircuit as LiftCircuit
 from .lift import lift_verdicts as lift_verdicts
 from .lifting_line import Holding as Holding
 from .lifting_line import Lowering as Lowering
-from .moving import flow as flow
-from .moving import power as power
-from .moving import rate as rate
 from .oil_line import OilLine as OilLine
 from .pump import Pump as Pump
 from .pump import Relief as Relief
@@ -33,7 +30,10 @@ from .pump import Tank as Tank
 from .requests import buckling as buckling
 from .requests import capacity as capacity
 from .requests import fits as fits
+from .requests import flow as flow
+from .requests import power as power
 from .requests import pressure as pressure
+from .requests import rate as rate
 from .requests import reserve as reserve
 from .requests import thrust as thrust
 from .standard_sizes import CatalogueRow as CatalogueRow

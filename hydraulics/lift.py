@@ -48,10 +48,9 @@ from .cylinders import (
 from .files import pressure_kind
 from .inputs import EFFICIENCIES, PUMPED, Array, check_pressures, follows, not_negative, one_design, one_number
 from .lifting_line import LiftLine, is_pushed_back
-from .moving import flow
 from .pump import Pump
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
-from .requests import going_back_request, is_free, left_request, pressure_request, reserve_request
+from .requests import flow, going_back_request, is_free, left_request, pressure_request, reserve_request
 from .shut import shut_verdicts
 
 ENDLESS = 1e-4

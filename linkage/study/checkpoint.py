@@ -45,7 +45,8 @@ class Checkpoint:
     @classmethod
     def of(cls, folder: str | os.PathLike[str], facts: Facts, what: str = "study") -> Checkpoint:
         """Return the checkpoint of a study; DefinitionError where the folder holds another one, with the differences."""
-        place = folder_given(folder)
+        require(isinstance(folder, (str, os.PathLike)) and folder != "", "folder", folder, "the path of a folder is expected")
+        place = Path(folder)
         note = place / NOTE
         known = read_note(note)
         if known is None:
@@ -107,12 +108,6 @@ class Checkpoint:
             if self.check(start, stop, content) == match[3]:
                 table = np.load(BytesIO(content), allow_pickle=False)
                 yield Batch(start, stop, kept=True, values={name: table[name] for name in table.dtype.names})
-
-
-def folder_given(folder: str | os.PathLike[str]) -> Path:
-    """Return a folder; DefinitionError for anything but a path."""
-    require(isinstance(folder, (str, os.PathLike)) and folder != "", "folder", folder, "the path of a folder is expected")
-    return Path(folder)
 
 
 def how_far(done: int, total: int, what: str, place: Path | None) -> str:

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Pump
-from hydraulics.programme import programme_read
+from hydraulics.cli import programme_read
 from linkage import Course, DefinitionError, Dimension, Over, ramp
 from linkage.cli import main
 from linkage.errors import FileError

@@ -73,7 +73,7 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
         found.push({ value: a, limit: b, symbol, c, size, margin: apart < 0 && apart >= -close ? 0 : apart, over: o, leaf: own[chief], piece: combo[own[chief]], at: pieces[chief], u: first < 0 ? null : parts[first].u, lawless: sum("lawless"), unlimited: sum("unlimited"), unknown: sum("unknown") });
       }
     }
-    const known = found.filter((each) => !Number.isNaN(each.margin)), lawless = found.some((each) => each.lawless && !overs[each.over].lost);
+    const known = found.filter((each) => !Number.isNaN(each.margin) && (each.margin < 0 || !constraints[each.c].unit)), lawless = found.some((each) => each.lawless && !overs[each.over].lost);
     if (found.some((each) => each.unknown)) return { ok: null, unknown: true };
     const gone = found.some((each) => lost && lost[each.over].share && !overs[each.over].lost);
     if (!known.length) return { ok: lawless || gone || found.some((each) => each.lawless) ? false : null, kept: lawless ? false : null, value: NaN };

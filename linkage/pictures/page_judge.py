@@ -231,7 +231,9 @@ class LiveQuestions:
             "unit": unit,
             "leaves": found,
             "constraints": [
-                dict(zip(("symbol", "left", "right"), each.tree(placed), strict=True)) | {"whole": int(not is_worst_bound(each))}
+                dict(zip(("symbol", "left", "right"), each.tree(placed), strict=True))
+                | {"whole": int(not is_worst_bound(each))}
+                | own_unit(self.machine.plan, each, constraints[0])
                 for each in constraints
             ],
         }
@@ -309,6 +311,12 @@ def used(answer: Answer) -> float:
 def live_unit(plan: Plan, asked: Measure | Constraint) -> PageData:
     """Return the unit that the value of a measure or a question is shown in, and its factor."""
     return unit_data(display_unit(measures_of(plan, asked), "mm"))
+
+
+def own_unit(plan: Plan, constraint: Constraint, first: Constraint) -> PageData:
+    """Return the unit of a constraint that bounds another kind than the first of its question, as a force beside a pressure."""
+    found = live_unit(plan, constraint)
+    return {} if found == live_unit(plan, first) else {"unit": found}
 
 
 def unit_data(unit: str) -> PageData:

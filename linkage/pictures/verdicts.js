@@ -32,8 +32,10 @@ function situationText(each) {
 /* Four figures; of a number without a unit no more than three decimals, as in Python. */
 const size = (value, unit) => (isNumber(value) ? shown(unit.unit ? value : round(1e3 * value) / 1e3, unit, unit.figures ?? 4) : say("without bounds"));
 /* The number that tells a rule: the condition's own, of a share without a unit the one that its sentence says. */
-const ruleNumber = ({ unit, saysUnit }, { value, says }) => (!unit.unit && isNumber(says?.value) ? size(says.value, saysUnit) : size(value, unit));
-function answerText({ rule, unit, words, fails, saysUnit }, each) {
+const unitOf = ({ unit, constraints }, { c }) => constraints[c]?.unit ?? unit;
+const ruleNumber = (question, each) => (!question.unit.unit && isNumber(each.says?.value) ? size(each.says.value, question.saysUnit) : size(each.value, unitOf(question, each)));
+function answerText(question, each) {
+  const { rule, words, fails, saysUnit } = question, unit = unitOf(question, each);
   if (each.unknown) return say("as delivered: with these sizes the page does not follow it");
   if (each.ok === null) return say("says nothing: no place is left to judge");
   if (!(abs(each.value) >= 0) || (each.kept === false && each.margin >= 0)) return say("it has no value at places that were looked at");
@@ -168,7 +170,7 @@ function cylinder(each, changed, add) {
   if (!each.sized && ext.high.value - ext.low.value > 1e-6) add(null, each.name, say("pins {low} to {high} apart", { low: shown(ext.low.value, data.length, 5), high: shown(ext.high.value, data.length, 5) }), more);
   if (changed && each.beside && ext.high.value - ext.low.value > 1e-6) {
     const slopes = now.reached.slice(1).map((i) => lengths[i] - lengths[i - 1]), k = slopes.findIndex((slope, i) => i && slope * slopes[i - 1] < 0);
-    if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }), more);
+    if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]] + (0.5 * (slopes[k - 1] + slopes[k]) * (now.along[1] - now.along[0])) / (slopes[k - 1] - slopes[k])) }), more);
   }
   const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]), before = base.values[each.pressure] || [];
   if (pressed && each.most === undefined) add(null, each.name, say("needs up to {pressure} at {where}", { pressure: shown(pressed.high.value, data.pressureUnit, 4), where: strokeText(pressed.high.at) }), more);
@@ -346,7 +348,7 @@ function count(found) {
 function atPose() {
   const at = followed(stands).slice(0, own.length), { covered, among, found } = asking.here(at, pose, strokes[runs].courses ? strokes[runs].over : -1), faults = [];
   for (const [q, each] of found.entries()) {
-    const { unit } = questions[q], value = isNumber(each.value) ? ruleNumber(questions[q], each) : say("no value");
+    const unit = unitOf(questions[q], each), value = isNumber(each.value) ? ruleNumber(questions[q], each) : say("no value");
     if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) && value === size(each.value, unit) ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : each.case });
   }
   for (const each of columns) {

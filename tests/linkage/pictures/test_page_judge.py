@@ -9,8 +9,27 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from hydraulics import Cylinder, LiftCircuit, Telescope, pressure, thrust
-from linkage import RIGHT, Dimension, Dyad, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Verdict, Weight, at, least, most, y
+from hydraulics import Cylinder, LiftCircuit, OilLine, Pump, Tank, Telescope, pressure, thrust
+from linkage import (
+    RIGHT,
+    Dimension,
+    Dyad,
+    Force,
+    Ground,
+    Guide,
+    LoadCase,
+    Mechanism,
+    OnGuide,
+    OnLink,
+    Over,
+    Stroke,
+    Verdict,
+    Weight,
+    at,
+    least,
+    most,
+    y,
+)
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.language import language
@@ -18,7 +37,7 @@ from linkage.motion import HasVerdicts, judged_poses, live_text, pose_sentence
 from linkage.pictures.page_data import PageRequests, page_data
 from linkage.pictures.page_file import page_part
 from linkage.reports import is_column
-from linkage.units import SYSTEMS, bar, deg, mm, unit_system
+from linkage.units import SYSTEMS, bar, deg, kN, mm, unit_system
 from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from mechanisms.mower_lift import MowerLift
@@ -108,6 +127,29 @@ def test_a_measure_of_both_sides_of_a_cylinder_is_one_number_at_every_door():
         each, values = formula(pressure("ram")), formula(table)
         found = [answer.value for answer in machine.answers([least(each), most(each)], over=over)]
         assert found == pytest.approx([values.min(), values.max()], rel=1e-12)
+
+
+class Backed(Mechanism):
+    """A ram upright, whose rod side is on a tank: `holding` bounds a pressure and a force."""
+
+    S = Stroke(0.0, 0.5)
+    O = Ground(0.0, 0.0)
+    rail = Guide(O, angle=90 * deg)
+    P = OnGuide(rail, at=1.0 + S)
+    ram = Cylinder(O, P, bore=120 * mm, rod=85 * mm)
+    load = Force(P, (0.0, -40 * kN))
+    line, back = OilLine(ram.piston_side, Pump(200 * bar)), OilLine(ram.rod_side, Tank(5 * bar))
+
+
+@NEEDED
+def test_what_bounds_a_pressure_and_a_force_is_told_in_the_unit_of_the_one_that_counts():
+    rod = 5 * bar * np.pi / 4 * (0.12**2 - 0.085**2)
+    _, data, found = asked_in_node(Backed(), [({"load.y": force}, 5, True) for force in (-40 * kN, 30 * kN)])
+    q, question = next((q, each) for q, each in enumerate(data["questions"]) if each["rule"] == "holding")
+    held, pulled = (each["found"][q] for each in found)
+    units = [question["constraints"][each["c"]].get("unit", question["unit"])["unit"] for each in (held, pulled)]
+    assert (held["kept"], pulled["kept"], units) == (True, False, ["bar", "kN"])
+    assert [held["value"], pulled["value"]] == pytest.approx([(40 * kN + rod) / (np.pi / 4 * 0.12**2), rod - 30 * kN], rel=1e-9)
 
 
 class Cornered(Grab):

@@ -79,7 +79,7 @@ class Part(Member):
         self.on: tuple[Reference, ...] = tuple(carriers) if is_listed(carriers) else ()
         if on is not None and (not 0 < len(self.on) < 3 or not all(is_member_or_name(each) for each in self.on)):
             raise DefinitionError(f"Part(on={cited(on)}): name two points of the body that carries it, a link, or nothing for the frame.")
-        x, y = (0.0, 0.0) if at is None else pair_of(at, "Part(at=...)")
+        x, y = (0.0, 0.0) if at is None else pair_of(at, "Part(at=...)", "write (x, y) in m, or fuse its fixed points with others by name")
         require_measure(angle, "angle", "Part: angle")
         self.at, self.angle = (quantity(x), quantity(y)), quantity(angle)
         self.mirrored = is_yes("Part: mirrored", mirrored)
@@ -126,7 +126,7 @@ class Part(Member):
             elif isinstance(member, Point) and value is None:
                 fault = f"the fixed point {name} cannot be left out; fuse it with a point or give (x, y)"
             elif isinstance(member, Point) and not is_member_or_name(value):
-                pair_of(value, f"{title}: {name}=")
+                pair_of(value, f"{title}: {name}=", "write (x, y) in m, or name a point of the machine")
             elif isinstance(member, Point) or (value is None and member is not None):
                 continue
             elif name in plan.strokes or ((name in plan.table.spellings or isinstance(member, Dimension)) and not np.ndim(value)):
@@ -275,11 +275,11 @@ def given_text(value: object) -> str:
     return repr(value.item() if isinstance(value, np.generic) else value)
 
 
-def pair_of(given: object, what: str) -> tuple[Operand, Operand]:
-    """Return two coordinates; DefinitionError for anything else."""
+def pair_of(given: object, what: str, remedy: str) -> tuple[Operand, Operand]:
+    """Return two coordinates; DefinitionError with the remedy for anything else."""
     pair = two_of(given)
     if not pair:
-        raise DefinitionError(f"{what}: {cited(given)} is no place; write (x, y) in m, or name a point of the machine.")
+        raise DefinitionError(f"{what}: {cited(given)} is no place; {remedy}.")
     for each in pair:
         quantity(each)
     require_measure(pair, "length", what)

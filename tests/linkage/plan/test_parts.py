@@ -278,6 +278,7 @@ REFUSED = {
     "a design": (lambda: declare(left=Arm()), r"Wrong\.left = Arm\(\.\.\.\) is a design.*left = Part\(Arm\)"),
     "a class": (lambda: declare(left=Arm), r"left = Part\(Arm\)"),
     "no machine": (lambda: Part(3), r"Part\(3\): a class of mechanisms is expected"),
+    "a place by a name": (lambda: declare(p=Part(Arm, at="A")), r"write \(x, y\) in m, or fuse its fixed points"),
     "a moving point": (lambda: declare(p=Part(Arm, B=(0, 0))), "B moves in the part and takes no place; give its fixed points, O, A"),
     "an unknown name": (lambda: declare(p=Part(Arm, OX=2)), r"Name 'OX' is unknown in Part\(Arm\)"),
     "a fixed point left out": (lambda: declare(p=Part(Arm, O=None)), "cannot be left out"),

@@ -92,7 +92,9 @@ class Verdict(str, Shown):
         Verdict
             The verdict.
         """
-        return type(self)(f"{self.rule} {name}", self.ok, self.sentence, f"{self.heading} {name}", self.answer)
+        return type(self)(
+            f"{self.rule} {name}", self.ok, self.sentence, self.heading if name == self.heading else f"{self.heading} {name}", self.answer
+        )
 
     def answered(self, answer: object) -> Self:
         """Return it with the judge's answer.

@@ -22,7 +22,7 @@ from ..language import heading_of, said
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, judged_poses, limits_over
-from ..reports import Run, dagger_words, force_columns, friction_of_columns, is_loaded, run_words, text_table, write_csv
+from ..reports import Run, dagger_words, force_columns, friction_of_columns, in_case_words, is_loaded, run_words, text_table, write_csv
 from ..statics import PinForces, max_table, pin_forces, table_text
 from . import settings
 from .command import COLUMNS, CSV, EVERY, Command, machine_options, option, pose_options, progress_bar, repeatable
@@ -193,8 +193,9 @@ def forces_command(options: Namespace) -> int:
             else:
                 columns.append(Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3))
         words = f"{run_words(machine, run)}: " if run is not None and len(motions) > 1 else ""
+        case = "" if run is not None and words and in_case_words(machine.plan, run.case) else f", {pins.case}"  # once
         friction = friction_of_columns(motion, columns, there.direction)
-        tables.append((f"{words}{machine.plan.title}, {pins.case}, {pins.direction}. {signs}\n{friction}".strip(), columns, ()))
+        tables.append((f"{words}{machine.plan.title}{case}, {pins.direction}. {signs}\n{friction}".strip(), columns, ()))
         found.append(pins)
     write_tables(tables, options.csv)
     if options.csv == "-":

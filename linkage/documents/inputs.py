@@ -19,7 +19,7 @@ from ..pictures.scene import Scene
 from ..plan import spanning_name, written_out
 from ..quantities import Dimension, Stroke
 from ..reports import dimension_unit
-from ..reports.values import DIGITS, in_digits, with_units
+from ..reports.values import DIGITS, in_digits, is_left_out, with_units
 from ..statics.vehicle import frame_supports
 from ..units import shown_number, unit_sign
 from .content import Block, Cell, Formula, Illustration, Section, TableBlock
@@ -110,7 +110,7 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
         where = entry.where.partition(" = ")[0] if entry.kind != "number" else ""
         said_of = notes.get(name) or notes.get(where) or notes.get(name.partition(".")[0], "")
         changed = said("was {value}", value=shown_number(entry.default, unit)) if float(value) != entry.default else ""
-        note = "; ".join(each for each in (changed, said_of) if each)
+        note = "; ".join(each for each in (changed, said_of, said("not given") if is_left_out(machine, name) else "") if each)
         sign = unit_sign(unit) if unit else ""
         rows.append((name, Formula(listing.symbol_latex(name)), shown_number(float(value), unit, DIGITS), sign, where, note))
     heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("appears in"), said("source, note"))

@@ -41,8 +41,8 @@ NO_LETTER = re.compile("[^0-9A-Za-z]")
 COUNTED = ("force", "moment", "pressure")
 MOST_RESERVE = 100.0
 """Of a greater reserve no table tells more: next to where nothing is carried it is without bounds."""
-LETTERS = 100
-"""Letters of a table's row, so that it fits across a page."""
+LETTERS, TWO_LINES = 118, 7
+"""Letters of a table's row, so that it fits across a page, and of a heading that stands in two lines."""
 
 
 # -- drawings ----------------------------------------------------------------------------------------------
@@ -251,7 +251,7 @@ def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column]
     if len({*columns[0].shown.ravel().tolist()}) < len(ends):
         columns = [Column(said("No."), np.arange(1.0, len(ends) + 1.0), "", 0), *columns]
     texts = [cell_texts(subject, column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    blocks = [*column_blocks(columns, texts, LETTERS)]
+    blocks = [*column_blocks([in_two_lines(column.heading) for column in columns], texts, LETTERS)]
     if len(blocks) > 1 and len(blocks[-1]) == 2 < len(blocks[-2]) - 1:  # no table of one column
         blocks[-1].insert(1, blocks[-2].pop())
     for number, block in enumerate(blocks):
@@ -259,6 +259,13 @@ def column_grids(subject: ReportSubject, caption: str, columns: Sequence[Column]
         rows = tuple(zip(*(texts[place] for place in block[:-1]), last, strict=True))
         title = caption if not number else said("{caption}, continued", caption=caption)
         yield TableBlock(title, tuple(columns[place].heading for place in block), rows, "r" * len(block))
+
+
+def in_two_lines(heading: str) -> int:
+    """Return how many letters a heading is wide in a report: a long one stands in two lines."""
+    words = heading.split(" ")
+    cuts = [max(len(" ".join(words[:at])), len(" ".join(words[at:]))) for at in range(1, len(words))]
+    return min(cuts, default=len(heading)) if len(heading) >= TWO_LINES else len(heading)
 
 
 def cell_texts(subject: ReportSubject, column: Column, values: FloatArray) -> list[str]:

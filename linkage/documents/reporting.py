@@ -19,8 +19,7 @@ from ..mechanism import Mechanism, played_along
 from ..motion import HasVerdicts, Motion, speakers, stroke_display_unit, way_text
 from ..motion.measures import least, most
 from ..motion.motion_verdicts import domain_words, verdict_questions
-from ..pictures.scene import RAISED
-from ..pictures.shown_values import limit_of, named_points
+from ..pictures.shown_values import limit_of, named_points, typeset
 from ..quantities import Dimension
 from ..reports import NOTHING, At, column_among
 from ..units import current_system, unit_system
@@ -263,13 +262,9 @@ OWN_UNITS = {
 """The units by which a system is told."""
 
 
-POWER = re.compile(r"(?<=[/\d])( ?[mc]?m|s)([23])\b")
-"""A square or cube of a unit, behind a slash or a number."""
-
-
 def set_in_type(text: str) -> str:
     """Return a text with the decimal sign of the language that is spoken, and the squares and cubes of its units raised."""
-    return POWER.sub(lambda found: found[1] + found[2].translate(RAISED), with_decimals(text))
+    return typeset(with_decimals(text))
 
 
 def with_texts(section: Section, changed: Callable[[str], str]) -> Section:

@@ -17,6 +17,7 @@ from .acting import (
     LoadCase,
     Loads,
     StrokeRates,
+    case_in_words,
     situation_of,
     takes_situation,
 )

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, cited, ensure, known_name, require, require_type, unknown
 from ..frozen import immutable, keep_own, refuses_changes
+from ..language import said
 from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
 from ..quantities.quantity import plain
 from ..units import deg, require_number
@@ -23,6 +24,13 @@ PLAIN_CASE = "plain"
 """The name of the machine's own loads, without a load case."""
 OWN_LOADS = "own loads"
 """What the plain case is called in tables of forces; it is taken as its name."""
+
+
+def case_in_words(name: str) -> str:
+    """Return a load case in words, within a sentence: `in the case full`, `under its own loads` of the plain one."""
+    return said("under its own loads") if name in ("", PLAIN_CASE) else said("in the case {case}", case=name)
+
+
 STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
 

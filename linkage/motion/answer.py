@@ -10,7 +10,7 @@ from typing import Any, Self, TypeAlias
 import numpy as np
 
 from ..language import said, translated
-from ..loads import FRICTIONLESS
+from ..loads import FRICTIONLESS, case_in_words
 from ..units import display_unit, show
 from .limits import places_text, timed_texts
 
@@ -142,7 +142,7 @@ class Answer:
         if "side" in self.named and self.side:
             words.append(said("on the piston side") if self.side == "piston" else said("on the rod side"))
         if "case" in self.named and self.case:
-            words.append(said("in the case {case}", case=self.case))
+            words.append(case_in_words(self.case))
         if "over" in self.named and self.over:
             words.append(said("over {over}", over=self.over))
         return ", ".join(words)

@@ -222,7 +222,7 @@ def plot(
     limits (`Mechanism.featured`). It runs over all that it declares as `Over`s, each with panels of its own in a load case that occurs
     there, else as in `animate`, `at=dict(tilt=0.1)`; at `count` poses. `limits` are, by the column's name,
     `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
-    A reserve is drawn as the pump load in %, 100 % over it.
+    A reserve is drawn as 1/reserve in %, the load's share of what the pump can carry.
     Raises DefinitionError for a batch, a grid, or an unknown name.
 
     Of a working field it is the load chart: heights by radii, in each cell the load and a letter for what limits it. Of the result of a

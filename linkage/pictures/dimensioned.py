@@ -90,7 +90,8 @@ class LengthLine:
         """Draw it on axes."""
         start, end = self.ends
         for pin, tip in ((self.P, start), (self.Q, end)):
-            line = np.array([pin + 0.35 * (tip - pin), tip + 0.35 * self.letter * (tip - pin) / (np.hypot(*(tip - pin)) or 1.0)])
+            away = float(np.hypot(*(tip - pin))) or 1.0  # it begins next to its pin, so that one sees from which it comes
+            line = np.array([pin + min(0.35, self.letter / away) * (tip - pin), tip + 0.35 * self.letter * (tip - pin) / away])
             ax.add_line(Line2D(*line.T, color=style.MUTED, linewidth=0.5, zorder=20.0))
         arrow = {"arrowstyle": "<|-|>,head_length=0.35,head_width=0.11", "color": style.INK, "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
         ax.annotate("", tuple(end), tuple(start), arrowprops=arrow, zorder=20.5, annotation_clip=False)

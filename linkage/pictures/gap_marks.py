@@ -16,6 +16,7 @@ from ..errors import require, require_type, unwarned
 from ..language import said, with_and
 from ..motion import Motion, Planes, Request, clearance, gap, nearest_gap, nearest_places, pair_at, pairs_without_planes
 from ..motion.grid import recalled
+from ..motion.limits import NO_LENGTH
 from ..motion.planes import depth_words
 from ..plan import Plan
 from ..program import FloatArray
@@ -128,7 +129,8 @@ def gap_mark(at: Motion, given: object, pairs: Pairs, place: str = "") -> GapMar
     if pair is None:
         pair, width = pair_at(at, pairs)
     found = nearest_places(at.plan, at._placed, *pair)
-    size, names = found.gap - width, dict(one=pair[0], other=pair[1], gap=show(abs(found.gap - width), "mm", 3))
+    size = found.gap - width if abs(found.gap - width) > NO_LENGTH else 0.0
+    names = dict(one=pair[0], other=pair[1], gap=show(abs(size), "mm", 3))
     if size < 0.0:
         words = said("{one} and {other} cross by {gap}", **names | {"gap": depth_words(at.plan, *pair, names["gap"])})
     else:

@@ -24,7 +24,7 @@ from ..plan.members import FRAME
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names
-from ..reports import LiveColumn, column_requests, is_changing, request_in_case, results
+from ..reports import LiveColumn, column_requests, friction_of_columns, is_changing, request_in_case, results
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_sign, unit_system, units_shown
 from ..verdict import Verdict
@@ -283,6 +283,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "defaults": {name: plan.defaults[name] for name, value, *_ in dims if value != plan.defaults[name]},
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         "steps": {name: name_or_pins(plan, name) if each.companions else opening(plan, name) for name, each in plan.points.items()},
+        "friction": bool(friction_of_columns(requests.motion, [column for column, _, _ in requests.columns.values()])),
         **verdicts_shown(requests),
         "judge": judge,
     }
@@ -679,10 +680,11 @@ def verdicts_shown(requests: PageRequests) -> PageData:
             with language("ru"):
                 told_as = zip(russian, english, others, strict=True)
                 rows = [russian_in_units(ru[2], en[2], other[2], values) for ru, en, other in told_as]
-            rows = [each[2] for each in told("ru")[0]] if None in rows else rows
-        pairs = zip(others, rows, english, russian, strict=True)
-        found[name] = [0 if (other[2], row) == (en[2], ru[2]) else [other[2], row] for other, row, en, ru in pairs]
-    plain = [[*en, *ru[1:]] for en, ru in zip(english, russian, strict=True)]
+            sentences = [each for each in rows if each is not None]
+            sentences = sentences if len(sentences) == len(rows) else [each[2] for each in told("ru")[0]]
+        pairs = zip(others, sentences, english, russian, strict=True)
+        found[name] = [0 if (other[2], row) == (en[2], ru[2]) else [typeset(other[2]), typeset(row)] for other, row, en, ru in pairs]
+    plain = [[*en[:2], typeset(en[2]), ru[1], typeset(ru[2])] for en, ru in zip(english, russian, strict=True)]
     shown: PageData = {"verdicts": plain, "verdictsIn": found}
     if verdicts is None:
         return shown | {"facts": [["", "", 0]], "groups": {}}

@@ -85,7 +85,7 @@ def leaf_bound(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tupl
 
 # A reserve has no bound where little is carried: its curve is the load in % of what the pump can carry.
 
-RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("pump load in %"), 100.0
+RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("1/reserve in %"), 100.0
 
 
 def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Column, Sequence[object] | None]:
@@ -106,8 +106,8 @@ def typeset(text: str) -> str:
     return POWER.sub(lambda unit: unit[1] + "²³"[int(unit[2]) - 2], text.replace("kgf_cm2", "kgf/cm2"))
 
 
-POWER = re.compile(r"(?:(?<=[/\d])|(?<=[\d,g] )|^(?=[cm]?m[23]$))([cm]?m)([23])\b")
-"""A square or cube of a length: behind a slash, a number or the comma of a heading, or a unit by itself."""
+POWER = re.compile(r"(?:(?<=[/\d])|(?<=[\d,g] )|^(?=[cm]?m[23]$))([cm]?m|s)([23])\b")
+"""A square or cube of a length or a second: behind a slash, a number or the comma of a heading, or a unit by itself."""
 
 
 # Joint forces: the body on which one is shown, and how bodies are called.

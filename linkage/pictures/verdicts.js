@@ -17,6 +17,7 @@ function asked(n) {
 
 /* ---- in words ---- */
 
+const caseWords = (name) => (name && name !== "plain" ? say("in the case {case}", { case: name }) : say("under its own loads"));
 function situationText(each) {
   const words = [];
   if (each.direction) {
@@ -24,7 +25,7 @@ function situationText(each) {
     words.push(each.drive ? say("{direction} {drive}", { direction, drive: each.drive }) : direction);
   }
   if (each.side) words.push(each.side === "piston" ? say("on the piston side") : say("on the rod side"));
-  if (each.case) words.push(say("in the case {case}", { case: each.case }));
+  if (each.case) words.push(caseWords(each.case));
   if (each.name) words.push(say("over {over}", { over: each.name }));
   if (each.strokes) words.push(say("at {place}", { place: placeText(each.strokes) }));
   return words.join(", ");
@@ -189,7 +190,7 @@ const unfolded = new Set();
 let toldBefore = "";
 function judge(n = STILL) {
   const found = verdicts(n), key = JSON.stringify([language, system, isChanged(), found]);
-  byId("looked").textContent = `${say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count })}; ${judgedOver()}`;
+  byId("looked").textContent = `${say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count })}; ${judgedOver()}${data.friction ? `. ${say("Forces and thrusts are without friction; the pressure and the reserve of a cylinder are with it, while it extends.")}` : ""}`;
   if (key === toldBefore) return;
   toldBefore = key;
   list(found);
@@ -290,7 +291,7 @@ function withPlaces(text) {
     if (!at) continue;
     const button = make("a", { href: "#mechanism", role: "button", className: "place", textContent: said, title: say("Take the machine there") });
     const path = strokes.findIndex((each) => each.path && text.slice(from, index).includes(say("over {over}", { over: each.name })));
-    const acts = data.cases.findIndex((name) => text.slice(from, index).includes(say("in the case {case}", { case: name || "plain" })));
+    const acts = data.cases.findIndex((name) => text.slice(from, index).includes(caseWords(name)));
     on(button, "click", (event) => { event.preventDefault(); goTo(at, path, acts); });
     found.push(text.slice(from, index), button);
     from = index + said.length;
@@ -384,7 +385,7 @@ function here() {
     for (const { q, rule, text, limit, case: acting } of found.faults) link(`rule-${q}`, "bad", `${rule} ${text}${acting ? ` (${acting})` : ""}`, limit ? say("limit {limit}", { limit }) : "");
     if (!found.faults.length && (found.kept || !open)) add(found.covered ? "ok" : "open", open ? say("{n} kept", { n: found.kept }) : say("all kept"));
     if (found.cases.length) add("beyond", say("judged here not under the loads shown, but: {cases}", { cases: found.cases.join(", ") }));
-    if (open) add("open", say("{n} not followed here: {rules}", { n: open, rules: found.unknown.join(", ") }));
+    if (open) add("open", say("{n} not followed here: {rules}", { n: open, rules: [...found.unknown.slice(0, 6), ...(open > 6 ? ["\u2026"] : [])].join(", ") }));
   }
   line.replaceChildren(...parts.flatMap((each) => [each, " "]));
 }

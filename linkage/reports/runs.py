@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, ensure, known_name, require_type
 from ..language import said
-from ..loads import PLAIN, Acting, Case, LoadCase
+from ..loads import PLAIN, Acting, Case, LoadCase, case_in_words
 from ..mechanism import Mechanism
 from ..motion import Judge, Motion, Run, case_named, out_of_reach, require_motion
 from ..motion.judge import Domain
@@ -101,9 +101,9 @@ def in_case_words(plan: Plan, case: Case) -> str:
     """Return which load case it is in words, by its title; "" for a machine that has none but its own loads."""
     cases = plan.of_kind(LoadCase)
     known = cases.get(case, case) if isinstance(case, str) else case
-    if known is None:
-        return said("under its own loads") if cases else ""
-    return said("in the case {case}", case=known.label if isinstance(known, LoadCase) else known)
+    if known is None and not cases:
+        return ""
+    return case_in_words(known.label if isinstance(known, LoadCase) else known or "")
 
 
 def run_along(motion: Motion) -> tuple[Run, int]:

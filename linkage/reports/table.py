@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Iterator, Sequence
+from math import floor, isfinite, log10
 from typing import TextIO
 
 import numpy as np
@@ -16,6 +17,8 @@ from ..quantities import is_whole
 
 GAP = "  "
 NO_VALUE = "-"  # stands for NaN: not reached, or not limited
+FIGURES, ROUNDING = 3, 1e-9
+"""The figures that the largest number of a column has at the least, and below which all are taken for rounding."""
 
 
 def flat(columns: Sequence[Column]) -> list[FloatArray]:
@@ -27,19 +30,20 @@ def flat(columns: Sequence[Column]) -> list[FloatArray]:
 
 
 def column_texts(column: Column, values: FloatArray) -> list[str]:
-    """Return a column's numbers as text, with its number of decimals."""
-    digits = column.shown_digits
+    """Return a column's numbers as text, with its number of decimals; more where the largest in a unit has fewer than FIGURES."""
+    most = max((abs(value) for value in values.tolist() if isfinite(value)), default=0.0)
+    digits = max(column.shown_digits, FIGURES - 1 - floor(log10(most)) if column.unit and most > ROUNDING else 0)
     return [NO_VALUE if np.isnan(value) else f"{value:z.{digits}f}" for value in values.tolist()]
 
 
-def column_blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], width: int | None) -> Iterator[list[int]]:
+def column_blocks(headings: Sequence[int], texts: Sequence[Sequence[str]], width: int | None) -> Iterator[list[int]]:
     """Yield the indices of the columns that stand beside each other in `width` characters; the first leads every block.
 
-    Without a width all stand beside each other.
+    `headings` are how many characters a heading is wide. Without a width all stand beside each other.
     """
-    sizes = [len(GAP) + max(map(len, (column.heading, *text))) for column, text in zip(columns, texts, strict=True)]
+    sizes = [len(GAP) + max(heading, *map(len, text)) for heading, text in zip(headings, texts, strict=True)]
     block = [0]
-    for index in range(1, len(columns)):
+    for index in range(1, len(sizes)):
         if width is not None and len(block) > 1 and sum(sizes[each] for each in (*block, index)) > width:
             yield block
             block = [0]
@@ -67,7 +71,8 @@ def text_table(columns: Sequence[Column], width: int | None = None, outside: Seq
     ends = ["", *dagger_ends(outside)]
     texts = [column_texts(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     require(width is None or (is_whole(width) and width > 0), "width", width, "a number of characters is expected, such as 80")
-    for number, block in enumerate(column_blocks(columns, texts, None if width is None else width - len(DAGGER) * any(outside))):
+    room = None if width is None else width - len(DAGGER) * any(outside)
+    for number, block in enumerate(column_blocks([len(each.heading) for each in columns], texts, room)):
         if number:
             yield ""
         listed = [(columns[index].heading, *texts[index]) for index in block]

@@ -27,13 +27,14 @@ def dimension_unit(machine: Mechanism, name: str) -> str:
 
 
 def design_rows(machine: Mechanism) -> Iterator[tuple[str, str, str]]:
-    """Yield, for each design variable, its name, its value with unit, and the step that has it; a batch shows its range."""
+    """Yield, for each design variable, its name, its value with unit, and the step that has it, or that it is not given."""
     require_mechanism(machine)
     for name, value in machine.dimensions.items():
         entry = machine.plan.table.entries[name]
         unit = dimension_unit(machine, name)
         low, high = show(float(np.min(value)), unit), show(float(np.max(value)), unit)
-        yield name, low if low == high else said("{low} to {high}", low=low, high=high), entry.where if entry.kind in STEPS else ""
+        note = entry.where if entry.kind in STEPS else said("not given") if is_left_out(machine, name) else ""
+        yield name, low if low == high else said("{low} to {high}", low=low, high=high), note
 
 
 def stroke_rows(machine: Mechanism) -> Iterator[tuple[str, str]]:
@@ -83,3 +84,10 @@ def number_units(element: object) -> dict[str, str]:
 def in_digits(text: str) -> str:
     """Return a declaration whose numbers have DIGITS digits at the most."""
     return LONG.sub(lambda found: f"{float(found[0]):.{DIGITS}g}", text)
+
+
+def is_left_out(machine: Mechanism, name: str) -> bool:
+    """Return whether a number of an element is zero since the element is declared without it, as a pump's flow may be."""
+    owner, _, own = name.rpartition(".")
+    kind = type(machine.plan.members.get(owner))
+    return issubclass(kind, ForceElement) and getattr(kind, own, None) == 0.0 and not np.any(machine.dimensions[name])

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..language import said
-from ..loads import AS_IT_RUNS, PLAIN, Acting, Case, Loads, TwoPoint, situation_of
+from ..loads import AS_IT_RUNS, PLAIN, Acting, Case, Loads, TwoPoint, case_in_words, situation_of
 from ..motion import Judge, Motion, most, require_motion, stroke_unit
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -299,5 +299,5 @@ def drive_remarks(judge: Judge) -> list[Remark]:
             unit = "kN" if stroke_unit(plan, name) == "m" else "Nm"
             force = answer.amount if np.isinf(size) else show(size, unit, 4)
             what = said("{stroke} is held by no cylinder: its drive gives up to {force}", stroke=name, force=force)
-            found[name] = size, Remark(f"{what}, {said('in the case {case}', case=case) + ', ' if case else ''}{answer.place}.")
+            found[name] = size, Remark(f"{what}, {case_in_words(case) + ', ' if case else ''}{answer.place}.")
     return [remark for _, remark in found.values()]

@@ -535,6 +535,8 @@ def slipping_sentence(worst: Answer) -> str:
     """Return how much of its friction with the ground a vehicle uses, in words."""
     if np.isinf(worst.value):
         return said("slipping {place}: nothing presses it to the ground there.", place=worst.place)
+    if worst.value == 0.0:
+        return said("along the ground it uses none of its friction.")
     text = noted("along the ground it uses at most {share} % of its friction, {place}; at 100 % it slips.") if worst.ok else SLIPPING
     return translated(text).format(share=shown_number(100.0 * float(worst.value), "", 3), place=worst.place)
 

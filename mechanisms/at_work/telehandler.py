@@ -73,7 +73,7 @@ class Telehandler(Mechanism):
     front_wheel = Outline.circle(at=(0.0, 0.58), radius=0.58)
     rear_wheel = Outline.circle(at=(-2.85, 0.58), radius=0.58)
     outer_tube = Outline([(-0.12, -0.12), (3.9, -0.14), (3.9, 0.14), (-0.12, 0.14)], on=(O, B))
-    inner_tube = Outline([(-2.6, -0.10), (0.8, -0.10), (1.05, -0.58), (0.85, -0.58), (0.6, 0.10), (-2.6, 0.10)], on=(Q, T))
+    inner_tube = Outline([(-2.6, -0.10), (0.6, -0.10), (0.85, -0.58), (1.05, -0.58), (0.8, 0.10), (-2.6, 0.10)], on=(Q, T))
     chassis = Outline([(-3.3, 0.55), (0.45, 0.55), (0.45, 0.95), (-2.3, 0.95), (-2.3, 1.75), (-2.9, 1.75), (-3.3, 1.2)])
 
     about = Featured("forks.F_y", ["forks.F", "T"])

@@ -323,7 +323,7 @@ def test_a_valve_that_is_shut_holds_a_leg_that_a_tank_feeds():
     assert unheld(Apart) == [f"{given}, at rest, at S = 500.0 mm, lift = 500.0 mm."]
     parked = LoadCase("parked", scale={"on_the_left": 9.0}, shut=["line"])
     shut = type("Apart", (Apart,), {"parked": parked})
-    assert unheld(shut) == [f"{given}, in the case plain, at rest, at S = 500.0 mm, lift = 500.0 mm."]
+    assert unheld(shut) == [f"{given}, under its own loads, at rest, at S = 500.0 mm, lift = 500.0 mm."]
     assert unheld(type("Apart", (shut,), {"always": Over(cases=["parked"])})) == []
     assert unheld(type("Apart", (Apart,), {"heavy": LoadCase("heavy", scale={"on_the_left": 9.0})}))[0].startswith(
         "S is held by no cylinder: its drive gives up to 6.487 kN, at rest, in the case heavy, at S"

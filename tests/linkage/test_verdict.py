@@ -14,6 +14,8 @@ def test_a_verdict_is_its_line_and_knows_whether_the_rule_is_kept():
     assert [bool(each) for each in (good, bad)] == [True, False] and not all([good, bad])
     assert "\n".join([good, bad]).splitlines() == [good, bad]
     assert (bad.rule, bad.ok, bad.sentence) == ("lifting", False, "it is too weak.")
+    twice, other = bad.named("lifting"), bad.named("tilting")  # a line may bear the name of a rule
+    assert (twice, twice.rule, other) == ("FAIL lifting: it is too weak.", "lifting lifting", "FAIL lifting tilting: it is too weak.")
 
 
 def test_a_remark_is_its_sentence_and_no_rule():

@@ -176,6 +176,15 @@ def test_forces_over_all_cases_and_directions_are_the_worst(said):
     assert f"{worst / kN:.3f}" in out
 
 
+@pytest.mark.slow
+def test_forces_along_several_paths_name_their_loads_once(said):
+    code, out, _ = said("forces", "telehandler", "--count", "2")
+    heads = [line for line in out.splitlines() if "Telehandler, " in line]
+    assert code == 0 and [head.partition(" Drive")[0] for head in heads] == [
+        "over stacking, under its own loads: Telehandler, frictionless.", "over reaching, in the case far: Telehandler, frictionless."
+    ]  # fmt: skip
+
+
 def test_limits_of_any_machine(said):
     code, out, _ = said("limits", "jansen")
     assert code == 0 and str(find("jansen")().sweep(21).limits()) in out and "mobility 1" in out

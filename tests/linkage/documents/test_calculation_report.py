@@ -233,7 +233,7 @@ def test_load_cases_are_looked_at_alone_or_all(tmp_path):
     assert dict(both.facts)["Load cases"] == "own loads (plain), twice (double)"
     (grid,) = grids(both, "least", "unit")
     (whole,) = (row for row in grid.rows if row[0] == "S")
-    assert "in the case plain" in whole[3] and "in the case double" in whole[5]
+    assert "under its own loads" in whole[3] and "in the case double" in whole[5]
     for acting in (dict(case="plain"), dict(case="double"), dict(acting=Acting(case="double"))):
         only = report_document(Lifter(), **acting)
         assert dict(only.facts)["Load cases"] == ("own loads" if acting == dict(case="plain") else "twice")

@@ -51,7 +51,7 @@ from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_
 from linkage.documents.html import html_text
 from linkage.documents.inputs import member_rows, plain_words
 from linkage.documents.markdown import markdown
-from linkage.documents.outcome import CURVE_ROOM, HALF, column_grids, curve_blocks, draw_column
+from linkage.documents.outcome import CURVE_ROOM, HALF, column_grids, curve_blocks, draw_column, in_two_lines
 from linkage.documents.pdf import pdf
 from linkage.documents.pictures import painted
 from linkage.documents.reporting import NUMBER, cited_numbers, own_system, set_in_type, speaking
@@ -343,6 +343,11 @@ def test_no_table_of_results_has_one_column(extra):
     blocks = [*column_grids(ReportSubject.of(Loader(), {}, 3), "Results", columns, [False] * motion.reached.size)]
     wide = [len(each.headings) - 1 for each in blocks]
     assert len(wide) > 1 < min(wide) and sum(wide) == 12 + extra
+
+
+def test_a_long_heading_stands_in_two_lines():
+    widths = [in_two_lines(each) for each in ("S, mm", "boom.A_x, mm", "thrust boom.ram, kN", "усилие на штоке ram, кН", "reserve")]
+    assert widths == [5, 9, 12, 13, 7]
 
 
 def test_every_load_case_has_its_pins():

@@ -1,5 +1,6 @@
 """Forces, velocities and poles over a mechanism: arrows as statics and kinematics say, in one scale, with values that can be read."""
 
+from dataclasses import replace
 from functools import cache
 from importlib.metadata import entry_points
 from itertools import combinations, product
@@ -38,12 +39,12 @@ from linkage import (
     pin_forces,
     standing,
 )
-from linkage.motion import whole_body
+from linkage.motion import nearest_places, whole_body
 from linkage.motion.gaps import shape_named
 from linkage.pictures import style
 from linkage.pictures.arrows import significant
 from linkage.pictures.force_arrows import ForceQuestion, ForcesAt, force_layer, forces_at_pose
-from linkage.pictures.gap_marks import assumed_pairs
+from linkage.pictures.gap_marks import assumed_pairs, gap_mark
 from linkage.pictures.lever_arms import lever_arms, moment_about
 from linkage.pictures.overlays import asked_poles, pole_marks, pole_rates
 from linkage.pictures.page_forces import PageSituation, force_arrows
@@ -613,6 +614,15 @@ def test_two_bodies_are_named_without_planes():
     wanted = motion[gap("lift", "CD")]
     assert_allclose(sorted(np.hypot(*(line[1] - line[0])) for line in lines), sorted({wanted[4], wanted.min()}), rtol=1e-9)
     assert any(word.endswith("between lift and CD") for word in words)
+
+
+@pytest.mark.parametrize(("away", "words"), [(2e-16, "0 mm between"), (-2e-16, "0 mm between"), (2e-6, "0.002 mm"), (-2e-6, "cross")])
+def test_a_gap_of_rounding_is_none(monkeypatch, away, words):
+    def nearest(*given):
+        return replace(nearest_places(*given), gap=away)
+
+    monkeypatch.setattr("linkage.pictures.gap_marks.nearest_places", nearest)
+    assert words in gap_mark(ThreePointHitch().at(S=0.1), ("lift", "CD"), ()).words
 
 
 def test_without_planes_all_bodies_are_in_one_and_the_picture_says_so():

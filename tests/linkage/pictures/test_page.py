@@ -57,7 +57,7 @@ from linkage.pictures.chart_page import chart_page
 from linkage.pictures.chart_text import ChartText
 from linkage.pictures.page_data import PageRequests, limit_data, named_in_code
 from linkage.pictures.page_file import bare, page_part, said_in, tight
-from linkage.pictures.shown_values import as_curve
+from linkage.pictures.shown_values import as_curve, typeset
 from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results
@@ -918,7 +918,7 @@ def test_units_are_switched_on_the_page_as_python_has_them(chromium, written):
             shown.settle()
             told = shown.told
             with unit_system(system):
-                expected = [str(each) for each in machine.verdicts()]
+                expected = [typeset(str(each)) for each in machine.verdicts()]
             assert len(told) == len(expected), system
             plain = [re.sub(r"[^0-9A-Za-z.]+", " ", re.sub(r"^(ok|FAIL|--) +", "", each)).split() for each in expected]
             assert sorted(re.sub(r"[^0-9A-Za-z.]+", " ", each).split() for each in told) == sorted(plain), system
@@ -1181,8 +1181,8 @@ def test_what_every_machine_is_given_is_followed(chromium, written):
         run = shown("hydrolinkage.sweep()")
         mine = {each.name: np.asarray(each.values) for each in results(Lifting(**design), Lifting(**design).sweep(101))}
         rows = {name: row for name, _, row, *_ in shown("hydrolinkage.data.columns")}
-        mine["pump load in %"] = 100.0 / mine["reserve"]
-        assert {"drive force", "thrust", "pressure", "pump load in %"} < rows.keys() and min(rows.values()) >= 0
+        mine["1/reserve in %"] = 100.0 / mine["reserve"]
+        assert {"drive force", "thrust", "pressure", "1/reserve in %"} < rows.keys() and min(rows.values()) >= 0
         for name, row in rows.items():
             assert_allclose(np.array(run["values"][row], float), np.broadcast_to(mine[name], (101,)), rtol=1e-10, atol=1e-12)
 
@@ -1200,14 +1200,14 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
     machine, file = Cased(), tmp_path / "cased.html"
     with Shown(chromium, page(machine, file, column="reserve", limit={"reserve": (1.25, "a quarter", "below")})) as shown:
         names = shown("[...document.getElementById('column').options].map((each) => each.textContent)")
-        assert "pump load in %" in names and not any(each.startswith("reserve") for each in names)
+        assert "1/reserve in %" in names and not any(each.startswith("reserve") for each in names)
         rows = {name: row for name, _, row, *_ in shown("hydrolinkage.data.columns")}
-        assert shown("hydrolinkage.data.limits")["pump load in %"][::2] == [80.0, "above"]
+        assert shown("hydrolinkage.data.limits")["1/reserve in %"][::2] == [80.0, "above"]
         for over, case in (("up", "half"), ("down", None)):
             shown.slide(f'[data-stroke="{over}"]', 0)
             run, k = shown("hydrolinkage.sweep()"), shown("hydrolinkage.data.cases").index(case or "")
             motion = machine.sweep(101, over=over)
-            for name, own in (("thrust", thrust("lift", case=case)), ("pump load in %", 100.0 / reserve("lift", case=case))):
+            for name, own in (("thrust", thrust("lift", case=case)), ("1/reserve in %", 100.0 / reserve("lift", case=case))):
                 assert_allclose(run["values"][rows[name][k]], motion[own], rtol=1e-9, err_msg=f"{name} {over}")
             assert isinstance(rows["B_x"], int)
             shown.settle()
@@ -1226,7 +1226,7 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
             ) + str(shown("[...document.querySelectorAll('#strokes input[type=text]')].map((each) => each.value)"))
             assert float(shown.tab.get_by_label("S, mm").input_value().split("\u2009")[0]) == pytest.approx(at, abs=0.05)
     curve, bound = as_curve(Column("reserve lift", np.array([4.0, 0.5, np.nan]), ""))
-    assert curve.name == "pump load in % lift" and bound[0] == 100.0
+    assert curve.name == "1/reserve in % lift" and bound[0] == 100.0
     assert_array_equal(curve.values, [25.0, 200.0, np.nan])
     for own in ("reserved", "reserve"):  # what a machine calls so is its own
         assert as_curve(Column(own, np.array([4.0, 0.5]), "", request=own))[0].name == own
@@ -1235,7 +1235,7 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
     figure = plot(machine, ["reserve"])
     for ax, (over, case) in zip(figure.axes, (("up", "half"), ("down", None)), strict=True):
         assert_allclose(ax.lines[0].get_ydata(), 100.0 / machine.sweep(101, over=over)[reserve("lift", case=case)], rtol=1e-9)
-        assert ax.get_title(loc="left").startswith("pump load in %")
+        assert ax.get_title(loc="left").startswith("1/reserve in %")
 
 
 @pytest.mark.slow
@@ -1358,6 +1358,7 @@ def test_what_the_page_does_not_follow_is_named_and_never_green(chromium, writte
         assert "lifting" in rules and "lifting" not in [each["rule"] for each in shown("hydrolinkage.data.judge.questions")]
         found = {each["rule"]: each for each in shown("hydrolinkage.verdicts()")}
         assert found["lifting"]["share"] == pytest.approx(1.0 / rules["lifting"].answer.value, rel=1e-6)  # as a report has it
+        assert "are without friction; the pressure and the reserve" in shown.text("#looked")
         columns = shown("hydrolinkage.data.columns")
         (place,) = (k for k, each in enumerate(columns) if each[0] == "pressure")
         motion = Rubbing().sweep(shown("hydrolinkage.data.count"))

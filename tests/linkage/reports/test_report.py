@@ -13,6 +13,7 @@ from linkage import Column, Crank, DefinitionError, Dimension, Dyad, Ground, Mec
 from linkage.motion import below_zero
 from linkage.plan import plan_measure
 from linkage.reports import closely, design_rows, reached_span, results, stroke_rows, text_table, write_csv
+from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all
 
 
@@ -176,3 +177,15 @@ def test_results_of_what_is_no_motion_or_no_machine_are_refused_in_every_case(ca
         results(Lift(), "x", case)
     with pytest.raises(DefinitionError, match="is no mechanism"):
         results("x", Lift().sweep(2), case)
+
+
+def test_a_small_column_has_three_figures_and_noise_has_none():
+    columns = [Column("S", np.array([0.0, 5.4e-5, 1.2e-4]), "mm", 1), Column("F", np.full(3, 1e-14), "kN")]
+    lines = [line.split() for line in text_table([*columns, Column("x", np.arange(3.0), "mm", 1)])]
+    assert lines[1:] == [["0.000", "0.0000", "0.0"], ["0.054", "0.0000", "1000.0"], ["0.120", "0.0000", "2000.0"]]
+
+
+def test_a_number_that_an_element_is_declared_without_is_not_given():
+    noted = {name: note for name, _, note in design_rows(ThreePointHitch())}
+    assert noted["circuit.back_pressure"] == "not given" and noted["circuit.flow"] == noted["slope"] == ""
+    assert {name: note for name, _, note in design_rows(ThreePointHitch(**{"circuit.back_pressure": 2e5}))}["circuit.back_pressure"] == ""

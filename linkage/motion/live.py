@@ -214,7 +214,7 @@ def loops_of(plan: Plan) -> dict[Loop, tuple[Node, Node]]:
     A direction that is taken between points loses digits as a loop does, by their distance over the machine's size; so does a slot's.
     """
     found: dict[Loop, tuple[Node, Node]] = {}
-    graph, extent = plan.trace.graph, np.sqrt(plan.trace.extent)
+    graph, extent = plan.trace.graph, plan.trace.graph.node(np.sqrt(plan.trace.extent))
     for loop in dict.fromkeys(plan.trace.loops):
         member = plan.members.get(loop.step)
         if member is None or not plan.moves(member):
@@ -228,6 +228,6 @@ def loops_of(plan: Plan) -> dict[Loop, tuple[Node, Node]]:
         else:
             radicand, scale, size = loop.terms
             is_way = scale.op == "sqrt" and scale.args[0].origin is size  # to the pin of a slot
-            span = np.maximum(scale, extent) if is_way else scale
+            span = graph.apply("maximum", scale, extent) if is_way else scale
             found[loop] = graph.node(np.sqrt(radicand) / span), graph.node(size / (scale * scale))
     return found

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..quantities import joined_names, source_text
+from ..quantities import joined_names, needs, source_text
 from ..steps import Guide, Point, Step
 from ..units import mm
 from ..vectors import FloatArray, Mask
@@ -60,7 +60,7 @@ def missing_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -
         if owner == name and least < 0.0:
             return f"the length {source_text(length)} = {least:.4g} m is negative. Keep the stroke where it is positive.", -least
     step = plan.members[name]
-    parents = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else []
+    parents = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else [*needs(step)]
     guides = plan.of_kind(Guide)
     for names in (parents, *(guides[each].points for each in parents if each in guides)):
         if len(names) != 2 or not set(names) <= set(plan.points):

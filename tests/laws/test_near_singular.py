@@ -15,8 +15,10 @@ from linkage import (
     Crank,
     Dyad,
     Ground,
+    Guide,
     Link,
     Mechanism,
+    OnGuide,
     OnLink,
     Over,
     Rope,
@@ -259,8 +261,16 @@ def test_a_length_of_nothing_is_a_place_at_every_door(S):
         assert_allclose(told(door)[0], [np.cos(turned), np.sin(turned)], rtol=0, atol=1e-15)
 
 
-def test_two_fixed_points_in_one_place_fail_in_words():
-    machine = Propped(D=(2.0, 0.0))
+class Railed(Propped):
+    """The same points give a guide its direction."""
+
+    rail = Guide("C", "D")
+    B = OnGuide(rail, at=0.5)
+
+
+@for_all("kind", [Propped, Railed])
+def test_two_fixed_points_in_one_place_fail_in_words(kind):
+    machine = kind(D=(2.0, 0.0))
     (verdict,) = machine.verdicts()
     assert not verdict.ok
     assert "C and D coincide there" in str(verdict)

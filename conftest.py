@@ -23,8 +23,6 @@ CHROMIUM = Path("/usr/bin/chromium")
 ARGUMENTS = (
     "--no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync"
 )
-SEARCHES = {"closed_curve", "dwell", "exact_synthesis", "path", "regions"}
-"""The pages of `docs/howto` whose examples search: they take seconds, and run under `slow`."""
 WAITING = defaultdict(list)
 """By test file the plans of the machines that it brought along, whose mobility is checked before the first of its tests."""
 
@@ -66,11 +64,6 @@ def pytest_make_collect_report(collector):
         return (yield)
     finally:
         mechanism.check = check
-
-
-def pytest_itemcollected(item):
-    if item.path.parent.name == "howto" and item.path.stem in SEARCHES:
-        item.add_marker("slow")
 
 
 @pytest.hookimpl(tryfirst=True)

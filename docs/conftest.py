@@ -4,8 +4,11 @@ from pathlib import Path
 
 import pytest
 
-LONG = {"crane", "excavator", "export", "machines_at_work", "misses", "redesign", "studies"}
-"""Pages whose examples design whole machines, or search at length."""
+LONG = {
+    "closed_curve", "crane", "crane_drives", "dwell", "exact_synthesis", "excavator", "export", "grapple", "header_balancer", "levelled",
+    "machines_at_work", "misses", "path", "planes", "redesign", "redesigns", "regions", "studies",
+}  # fmt: skip
+"""Pages whose examples search, or tell figures of machines at length, which the tests of these machines hold."""
 
 
 @pytest.fixture(autouse=True)

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Pump
+from hydraulics import LiftCircuit, Pump
 from hydraulics.cli import programme_read
 from linkage import Course, DefinitionError, Dimension, Over, ramp
 from linkage.cli import main
 from linkage.errors import FileError
 from linkage.pictures.page_data import event_data
 from linkage.units import bar, litre, minute, show
-from tests.hydraulics.test_pump import FLOW, OneBlock, TwoBlocks, pump_of
+from tests.hydraulics.test_pump import AREA, FLOW, OneBlock, TwoBlocks, pump_of
 from tests.members import told_by
 
 PROGRAMME = """
@@ -141,6 +141,15 @@ def test_the_margin_is_there_from_the_first_instant_and_adds_nothing_to_the_peak
     assert main(["cycle", f"{__file__}:BlockWithMargin"]) == 0 and "of 30 l/min" in capsys.readouterr().out  # of a pump on one line too
 
 
+def test_a_course_is_followed_on_where_another_line_leads():
+    class CrossedBlocks(TwoBlocks):
+        going = Over.path(S=ramp(0.0, 0.2, speed=0.1, acceleration=0.5), T=ramp(0.1, 0.15, speed=0.02, acceleration=0.5))
+
+    cycle = pump_of(CrossedBlocks()).check(CrossedBlocks().sweep(11, over="going"))
+    assert_allclose([cycle.litres["first_line"], cycle.litres["second_line"]], 1e3 * AREA * np.array([0.2, 0.05]), rtol=1e-12)
+    assert_allclose(cycle.pressure["supply"], np.maximum(cycle.pressure["first_line"], cycle.pressure["second_line"]), rtol=1e-12)
+
+
 def test_a_report_says_what_the_pump_gives_and_where_its_energy_goes():
     machine = CycledBlocks()
     (section,) = pump_of(machine).sections(machine.judge())
@@ -167,6 +176,12 @@ def test_a_run_keeps_what_its_pump_gave_wherever_it_is_judged():
     for kind in (OpenCentreBlocks, MeasuredBlocks):  # and to another machine, which has a pump of that name
         (said,) = [each.sentence for each in told_by(kind(), "supply", over=run.over) if each.heading == "pump"]
         assert said.startswith("needs ")
+
+    class Fed(OneBlock):
+        feed = Pump(300 * bar, flow=FLOW)
+        line = LiftCircuit("one.ram", feed, relief=200 * bar)
+
+    assert Fed.plan.members["feed"].run(Fed(), demands={"one.ram": 0.05}, until=1.0).cycle.pump == "feed"
 
 
 def test_a_chart_shades_who_waits_and_numbers_the_events():

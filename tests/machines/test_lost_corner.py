@@ -61,7 +61,7 @@ def rows(path):
 @pytest.mark.parametrize(
     ("command", "count", "total"),
     [("table {} --at S2=0.3 --count 5 --csv table.csv", 3, 5),
-     ("export {} -o table.csv --count 5", 5, 25),
+     pytest.param("export {} -o table.csv --count 5", 5, 25, marks=pytest.mark.slow),
      ("forces {} --at S2=0.3 --count 4 --csv table.csv", 2, 4)],
 )
 def test_table_has_gaps_where_the_corner_is(said, tmp_path, command, count, total):

@@ -423,7 +423,7 @@ LONG = ("forestry crane", "boom, arm and bucket, three cylinders, a bell crank")
 
 
 @pytest.mark.parametrize(
-    "which", [pytest.param(name, marks=pytest.mark.slow if place % 3 or name in LONG else ()) for place, name in enumerate(ALL)]
+    "which", [pytest.param(name, marks=pytest.mark.slow if place % 6 or name in LONG else ()) for place, name in enumerate(ALL)]
 )
 def test_equations_of_forces(which):
     """Their values are the engine's; the vectors of a line have no symbols of their own."""

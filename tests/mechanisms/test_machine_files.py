@@ -60,7 +60,7 @@ def test_machines_with_loads_are_among_them():
 
 
 @for_all("write", [to_toml], slow=[to_json])
-@for_all("name", FEW, slow=shipped.OTHERS)
+@for_all("name", ["hitch 1", "hitch 2"], slow=shipped.MACHINES)  # the others of every day: `tests/linkage/files`
 def test_class_comes_back(name, write):
     machine = CLASSES[name]
     back = load(write(machine))

@@ -186,6 +186,7 @@ def test_whatever_numbers_a_drawing_has_python_is_written_alike(board, tmp_path)
         assert read_text(board_json(sketch), tmp_path) == sketch, seed
 
 
+@pytest.mark.slow
 def test_toml_says_angles_sizes_and_lengths_alike(board, tmp_path):
     pick = random.Random(5)
     for seed in (0, 3):

@@ -121,6 +121,7 @@ def test_what_was_found_clear_says_nothing_of_what_was_not_looked_at():
     machine = FourBar(CB=2.0)
     for low, high, what in ((0, 3, "clear"), (1, 2, "clear"), (1, 6, "change"), (0, 3, "clear"), (3.5, 6, "clear"), (0, 6, "change")):
         assert told(machine, np.array([low, high]))[0] == what
+    assert told(machine, np.pi + np.array([-1e-6, 1e-6]))[0] == "change"  # in line all the way, to rounding
     assert told(FourBar(CB=2.5), np.array([0.0, 6.0]))[0] == "clear"
     assert told(FourBar(CB=1.9), np.array([0.0, 6.0]))[0] == "gap"
 

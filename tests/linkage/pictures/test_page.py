@@ -55,7 +55,7 @@ from linkage.motion import live_text
 from linkage.pictures import page_html
 from linkage.pictures.chart_page import chart_page
 from linkage.pictures.chart_text import ChartText
-from linkage.pictures.page_data import PageRequests, limit_data, named_in_code
+from linkage.pictures.page_data import PageRequests, limit_data, named_in_code, scene_data
 from linkage.pictures.page_file import bare, page_part, said_in, tight
 from linkage.pictures.shown_values import as_curve, typeset
 from linkage.plan.trace import Trace
@@ -1600,17 +1600,21 @@ def boxes(shown, selector):
     )
 
 
-def test_no_arrow_leaves_the_sheet_and_no_two_lines_of_the_legend_touch(chromium, written):
-    for machine, size in product((Hanging(), ThreeHeaders(), Digger()), (LAPTOP, PHONE)):
-        with Shown(chromium, written(machine), size) as shown:
-            shown.tab.locator("#forces").click()
-            wide, tall = shown("(({ width, height }) => [width, height])(document.getElementById('mechanism').getBoundingClientRect())")
-            for share in (0, 500, 1000):
-                shown.slide("#strokes input", share)
-                arrows = boxes(shown, "path:has(title)")
-                assert len(arrows) > 3 and np.all(arrows >= 0) and np.all(arrows[:, 2:] <= [wide, tall]), (machine, size, share)
-            for (a, b, c, d), (left, top, right, bottom) in combinations(boxes(shown, "text.halo:not(.force)"), 2):
-                assert a >= right or left >= c or b + 3 >= bottom - 3 or top + 3 >= d - 3
+@for_all(
+    ("machine", "size"),
+    [(Hanging, LAPTOP), (ThreeHeaders, PHONE), (Digger, PHONE)],
+    slow=[(Hanging, PHONE), (ThreeHeaders, LAPTOP), (Digger, LAPTOP)],
+)
+def test_no_arrow_leaves_the_sheet_and_no_two_lines_of_the_legend_touch(chromium, written, machine, size):
+    with Shown(chromium, written(machine()), size) as shown:
+        shown.tab.locator("#forces").click()
+        wide, tall = shown("(({ width, height }) => [width, height])(document.getElementById('mechanism').getBoundingClientRect())")
+        for share in (0, 500, 1000):
+            shown.slide("#strokes input", share)
+            arrows = boxes(shown, "path:has(title)")
+            assert len(arrows) > 3 and np.all(arrows >= 0) and np.all(arrows[:, 2:] <= [wide, tall]), share
+        for (a, b, c, d), (left, top, right, bottom) in combinations(boxes(shown, "text.halo:not(.force)"), 2):
+            assert a >= right or left >= c or b + 3 >= bottom - 3 or top + 3 >= d - 3
 
 
 def test_on_a_phone_the_name_and_the_forces_of_what_is_touched_are_told(chromium, written):
@@ -1647,7 +1651,7 @@ def test_a_points_name_is_short_where_nothing_else_is_called_so():
         B = Ground(-0.3, 0)
         a = Part(FourBar, phi="phi", load=None)
 
-    scene = data_of(page_html(Lone()))["scene"]
+    scene = scene_data(PageRequests(Lone(), 9).scene, {})
     shown = dict(zip(scene["names"], scene["letters"], strict=True))
     assert shown["a.A"] == "A" and shown["a.B"] == "a.B" and shown["B"] == "B"
 

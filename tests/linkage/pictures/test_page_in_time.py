@@ -110,7 +110,7 @@ def check_forces(machine, least):
 
 
 @for_all("kind, least", [
-    (Pumped, 8), (Sudden, 8), (LoadedLever, 4), pytest.param(TwoRates, 7, marks=pytest.mark.slow),
+    (Pumped, 8), (LoadedLever, 4), pytest.param(Sudden, 8, marks=pytest.mark.slow), pytest.param(TwoRates, 7, marks=pytest.mark.slow),
     pytest.param(DiggingExcavator, 40, marks=pytest.mark.slow), pytest.param(BrakingTelehandler, 30, marks=pytest.mark.slow),
     pytest.param(LoadingForwarder, 100, marks=pytest.mark.slow),
 ])  # fmt: skip

@@ -247,8 +247,7 @@ def check(machine, designs, n=9):
     ("machine", "lengths"),
     [
         *((each, 1) for each in (ThreePointHitch, MowerLift)),
-        (Staged, 0),
-        *(pytest.param(each, 0, marks=SLOW) for each in (Grab, CorneredOnce)),  # two strokes: Python looks at many poses
+        *(pytest.param(each, 0, marks=SLOW) for each in (Staged, Grab, CorneredOnce)),  # two strokes: Python looks at many poses
         *(pytest.param(each, 3, marks=SLOW) for each in (ThreePointHitch, Grapple, Grab, CorneredOnce, LostOnce, Cornered, Lost)),
     ],
 )

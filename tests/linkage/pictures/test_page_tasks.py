@@ -13,6 +13,7 @@ from linkage.units import bar, mm
 from mechanisms.at_work.excavator import Excavator
 from mechanisms.at_work.levelled import LevelledTelehandler
 from mechanisms.header_balancer import HeaderBalancer
+from tests.for_all import first_daily
 from tests.linkage.pictures.test_page import PHONE, Shown
 
 DESKTOP = (1440, 900)
@@ -143,15 +144,20 @@ def check_tasks(shown, kind, change, rule, by, other, folder, capsys):
     assert shown.said == []
 
 
-@pytest.mark.parametrize("size", [DESKTOP, PHONE])
-def test_five_tasks_are_done_on_ones_own_machine(chromium, size, tmp_path, capsys):
-    with Shown(chromium, page(Stacker(), tmp_path / "own.html"), size) as shown:
+@pytest.fixture(scope="module")
+def own(tmp_path_factory):
+    return page(Stacker(), tmp_path_factory.mktemp("own") / "own.html")
+
+
+@first_daily(1, "size", [DESKTOP, PHONE])
+def test_five_tasks_are_done_on_ones_own_machine(chromium, own, size, tmp_path, capsys):
+    with Shown(chromium, own, size) as shown:
         check_tasks(shown, Stacker, ("load.mass", 1100), "lifting", "tilt.bore", ("load.mass", 700), tmp_path, capsys)
 
 
-def test_what_tips_is_told_with_its_place_and_case_and_its_arrow_is_red(chromium, tmp_path):
+def test_what_tips_is_told_with_its_place_and_case_and_its_arrow_is_red(chromium, own):
     """A box is looked at in two load cases: its place is shown in the one in which the verdict stands."""
-    with Shown(chromium, page(Stacker(), tmp_path / "tips.html"), DESKTOP) as shown:
+    with Shown(chromium, own, DESKTOP) as shown:
         shown.tab.locator("#forces").click()
         typed(shown, "load.mass", 1500)
         row = shown.tab.locator("#groups li.bad", has_text="tipping")
@@ -184,9 +190,9 @@ def test_five_tasks_are_done_on_shipped_machines(chromium, kind, change, rule, b
         check_tasks(shown, kind, change, rule, by, other, tmp_path, capsys)
 
 
-def test_dead_points_beyond_all_that_several_overs_run_are_pythons(chromium, tmp_path):
+def test_dead_points_beyond_all_that_several_overs_run_are_pythons(chromium, own):
     design = {"TD": 0.301}
-    with Shown(chromium, page(Stacker(), tmp_path / "dead.html"), DESKTOP) as shown:
+    with Shown(chromium, own, DESKTOP) as shown:
         typed(shown, "TD", 301)
         (said,) = [text for text in shown.told if text.startswith("dead points: ")]
     (told,) = [each.sentence for each in Stacker(**design).verdicts() if each.rule == "dead points"]
@@ -194,7 +200,7 @@ def test_dead_points_beyond_all_that_several_overs_run_are_pythons(chromium, tmp
     numbers = [[float(each) for each in re.findall(r"-?\d+(?:\.\d+)?(?= mm)", text)] for text in texts]
     assert len(numbers[1]) == 4 and numbers[0] == pytest.approx(numbers[1], abs=0.6), texts
     assert len({re.sub(r"-?\d+(\.\d+)?", "#", text.removeprefix("dead points: ").rstrip(".")) for text in texts}) == 1, texts
-    with Shown(chromium, page(Stacker(), tmp_path / "cases.html"), DESKTOP) as shown:
+    with Shown(chromium, own, DESKTOP) as shown:
         cases, load = shown.tab.locator("#case"), "load case: {}".format
         assert cases.locator("option").all_text_contents() == ["own loads", "downhill"]
         assert load("own loads") in shown.tab.locator("#curve").text_content()

@@ -140,6 +140,7 @@ def test_a_plan_that_arrives_again_is_the_same_with_its_kernels():
     np.testing.assert_array_equal(arrived.kernel(("G",))(inputs).values, plan.kernel(("G",))(inputs).values)
 
 
+@pytest.mark.slow
 def test_functions_by_value_are_for_dask_and_not_for_a_pool(client, spawned):
     hitch, over = hitch_designs(200)
     factor = 2.0
@@ -196,15 +197,15 @@ def test_classes_of_a_script_are_sent_by_dask(client, tmp_path):
 # -- what goes wrong ----------------------------------------------------------------------------------------
 
 
-def test_failure_in_a_worker_names_its_designs(small, spawned, client, tmp_path):
-    hitch, over = hitch_designs(640)
+@pytest.mark.parametrize("pool", ["spawned", pytest.param("client", marks=pytest.mark.slow)])
+def test_failure_in_a_worker_names_its_designs(small, pool, request, tmp_path):
+    (hitch, over), executor = hitch_designs(640), request.getfixturevalue(pool)
     measure = functools.partial(failing, victim=over["OB"][333])
-    for name, executor in (("pool", spawned), ("dask", client.get_executor())):
-        with pytest.raises(StudyError, match=r"measure failed at designs 320 to 383: AssemblyError: .*cannot be assembled") as caught:
-            survey(hitch, over, measure, executor=executor, folder=tmp_path / name)
-        assert caught.value.designs == (320, 383)
-        kept = sum(int(path.name.split("-")[2]) - int(path.name.split("-")[1]) for path in (tmp_path / name).glob("designs-*.npy"))
-        assert 0 < kept < 640 and f"{kept} of 640 designs are done and kept in" in caught.value.__notes__[-1]
+    with pytest.raises(StudyError, match=r"measure failed at designs 320 to 383: AssemblyError: .*cannot be assembled") as caught:
+        survey(hitch, over, measure, executor=executor.get_executor() if pool == "client" else executor, folder=tmp_path)
+    assert caught.value.designs == (320, 383)
+    kept = sum(int(path.name.split("-")[2]) - int(path.name.split("-")[1]) for path in tmp_path.glob("designs-*.npy"))
+    assert 0 < kept < 640 and f"{kept} of 640 designs are done and kept in" in caught.value.__notes__[-1]
 
 
 @pytest.mark.slow

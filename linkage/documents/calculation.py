@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ..errors import LinkageError
 from ..formulas import equations
 from ..formulas.numbered import Equations, SheetLine
@@ -34,9 +36,10 @@ class FilledEquations:
 
 
 def without_rounding(value: Any) -> object:
-    """Return a value, one number or two, as floats; zero for the rounding of its last digits."""
+    """Return a value, one number or two, as floats; zero for the rounding of its last digits, of two beside the larger one."""
     if isinstance(value, tuple):
-        return tuple(map(without_rounding, value))
+        least = 1e-15 * max(abs(float(part)) for part in value)  # a given angle is rounded too
+        return tuple(without_rounding(part) if abs(part) > least else 0.0 for part in value)
     return 0.0 if abs(value) < 10.0**-DIGITS else float(value)
 
 
@@ -44,7 +47,9 @@ def calculated(machine: Mechanism, pose: Mapping[str, float], start: int, case: 
     """Return the equations of a design in a load case; without those of its forces where these have none."""
     try:
         found = equations(machine, start=start, forces=has_loads(machine), case=case if has_loads(machine) else None)
-        return FilledEquations(found, pose, found.values(pose, DIGITS))
+        values = found.values(pose, DIGITS)
+        lost = [name for name, value in values.items() if np.isnan(np.asarray(value, float)).any()]  # over a force that is zero
+        return FilledEquations(found, pose, {**values, **{name: found.values(pose)[name] for name in lost}})
     except LinkageError as error:
         if not has_loads(machine):
             raise

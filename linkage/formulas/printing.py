@@ -30,7 +30,7 @@ def number_latex(text: str, *, inside: bool = False) -> str:
     if text.startswith("(") and ", " in text:
         return rf"\left({', '.join(number_latex(part) for part in text.strip('()').split(', '))}\right)"
     number, _, unit = text.partition(" ")
-    digits, _, power = number.partition("e")
+    digits, _, power = number.replace("inf", r"\infty").partition("e")
     shown = rf"{digits} \cdot 10^{{{int(power)}}}" if power else digits
     shown += r"^{\circ}" if unit == "deg" else ""
     return rf"\left({shown}\right)" if inside and text.startswith("-") else shown

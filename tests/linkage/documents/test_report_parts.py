@@ -45,6 +45,7 @@ from linkage.cli.machines import find
 from linkage.documents import report_document
 from linkage.documents.assumptions import STANDARD
 from linkage.documents.breaking import LONGEST, formula_pieces
+from linkage.documents.calculation import calculated
 from linkage.documents.checks import closed_walks
 from linkage.documents.content import Illustration, Section, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_blocked
@@ -629,6 +630,12 @@ def test_a_rate_that_jumps_counts_no_inertia_and_a_box_is_in_no_time(tmp_path):
     report(Sudden(), tmp_path / "sudden.md", count=3)
     assert "No inertia is counted, over rise, in the case full: the rate of S jumps" in (tmp_path / "sudden.md").read_text(encoding="utf-8")
     assert " As it runs" not in (report(Pumped(), tmp_path / "box.md", over=Pumped.plan.members["box"])).read_text(encoding="utf-8")
+
+
+def test_a_reserve_without_a_thrust_is_endless_in_the_equations_too():
+    unloaded = type("Unloaded", (Loader,), {"empty": LoadCase("empty", scale={"load": 0.0})})
+    (line,) = [each for each in calculated(unloaded(), {"S": 0.1}, 1, "empty").lines if each.symbol.startswith(r"\mathit{kz}")]
+    assert line.results == (r"\infty",)
 
 
 def test_an_equal_thrust_is_no_second_column_and_a_frame_on_axles_has_no_given_forces():

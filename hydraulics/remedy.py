@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias, TypeVar
 
-from linkage.errors import DefinitionError, LinkageError, ensure, unwarned
+from linkage.errors import LinkageError, ensure, unwarned
 from linkage.language import said
 from linkage.loads import ForceElement
 from linkage.motion import Answer, Judge, Question
@@ -30,17 +30,12 @@ def resized(judge: Judge, element: Element, sizes: Sizes) -> tuple[Judge, Elemen
         ensure(called in plan.table.spellings, f"{plan.title}: {element.name}.{name} follows an expression and cannot be set alone.")
         owner, sign = plan.table.spellings[called]
         designs[owner] = sign * value
-    overs = [place.over for place in judge.places]
-    return judge._once(("resized", element.name, *sizes.items()), lambda: Judge(plan, designs, overs, judge.acting)), element
+    return judge._once(("resized", element.name, *sizes.items()), lambda: judge.of(designs)), element
 
 
 def can_be_set(judge: Judge, element: ForceElement, sizes: Sizes) -> bool:
     """Return whether sizes of an element are design variables, or follow one each."""
-    try:
-        resized(judge, element, sizes)
-    except DefinitionError:
-        return False
-    return True
+    return not element.name or all(element.variable(name) in judge.plan.table.spellings for name in sizes)
 
 
 def smallest(

@@ -6,10 +6,10 @@ pose, has no value, or rests on another law than the one traced. What is said of
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -46,9 +46,8 @@ class BulkProgram(NamedTuple):
     def compiled_on(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
         """Return the same, traced in a plan of its own."""
         nodes = [each.nodes(plan) for each in requests]
-        guards = [node for each in requests for node in each.notes(plan).assumed]
-        guards += [node for each in requests for node in each.gaps(plan)]
-        guards += plan.trace.watched(members_behind(plan, requests), max((each.regular for each in requests), default=0.0))
+        noted = dict.fromkeys(chain(*(each.notes(plan).assumed for each in requests), *(each.gaps(plan) for each in requests)))
+        watched = plan.trace.watched(members_behind(plan, requests), max((each.regular for each in requests), default=0.0))
         lengths = [each.rows for each in requests]
         parts = tuple(slice(end - rows, end) for end, rows in zip(accumulate(lengths), lengths, strict=True))
         followed: dict[tuple[Node, ...], list[int]] = {}
@@ -59,7 +58,7 @@ class BulkProgram(NamedTuple):
         flat = [node for each in nodes for node in each]
         angles = tuple((rows, angles_of(plan, [flat[row] for row in rows])) for rows in followed.values())
         may_fail = plan.may_overflow or any(Trait.MAY_FAIL in each.traits for each in requests)
-        return cls(Kernel(flat, guards), parts, angles, may_fail)
+        return cls(Kernel(flat, [*noted, *watched]), parts, angles, may_fail)
 
     def split(self, values: FloatArray) -> list[FloatArray]:
         """Return one array a request of values, shape (rows, ...): (...), of a point (2, ...)."""
@@ -79,7 +78,7 @@ def require_rates(plan: Plan, kernel: Kernel, known: Container[str]) -> None:
         raise DefinitionError(f"{what}; give rates= and accelerations=, or ask over a path in time{timed}.")
 
 
-def members_behind(plan: Plan, requests: Sequence[Request]) -> set[str]:
+def members_behind(plan: Plan, requests: Iterable[Request]) -> set[str]:
     """Return the members that requests are built from."""
     return set().union(*(each.names(plan) for each in requests))
 
@@ -106,16 +105,30 @@ class CloseLook(NamedTuple):
 
 @dataclass(frozen=True)
 class Evaluation:
-    """Requests over a grid of poses, and how they are worked out."""
+    """Requests over a grid of poses, and how they are worked out. `among` are the places of those that count, by default all.
+
+    So some requests are asked by the program of many that is there already; the values of the others may be anything.
+    """
 
     grid: Grid
     requests: tuple[Request, ...]
     options: RunOptions = QUICKEST
+    among: tuple[int, ...] | None = None
 
     @cached_property
     def program(self) -> BulkProgram:
         """The kernel of the requests and the meaning of its rows."""
         return BulkProgram.for_requests(self.grid.plan, self.requests)
+
+    @cached_property
+    def counting(self) -> dict[int, Request]:
+        """The requests that count, by their places."""
+        return {place: self.requests[place] for place in (range(len(self.requests)) if self.among is None else self.among)}
+
+    @cached_property
+    def rows(self) -> list[int]:
+        """The rows of the requests that count."""
+        return [row for place in self.counting for row in range(len(self.program.kernel.plan.outputs))[self.program.parts[place]]]
 
     def evaluate(self, out: FloatArray | None = None, among: Mask | None = None) -> tuple[list[FloatArray], CloseLook | None]:
         """Return one array a request, NaN without a value, and the close look; None where all guards are clear.
@@ -145,16 +158,18 @@ class Evaluation:
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block, here = place[:, band, part], look.in_block(band, part)
             _, height, width = block.shape
-            unlike, unplaced, near, here.empty[...] = guard_masks(plan, self.requests, inputs, (height, width), self.options)
+            unplaced, unlike, near, here.empty[...] = guard_masks(plan, self.requests, inputs, (height, width), self.options)
+            near[[number for number in range(len(near)) if number not in self.counting]] = False
             for number, rows in enumerate(self.program.parts):
                 block[rows, here.empty[number]] = 0.0
-            bad = unlike | unplaced | near.any(axis=0) | ~np.isfinite(block).all(axis=0)
+            broken = np.asarray(unlike[[*self.counting]].any(axis=0))
+            bad = broken | unplaced | near.any(axis=0) | ~np.isfinite(block[self.rows]).all(axis=0)
             bad &= True if among is None else among[band, part]
             if bad.any():
                 shaped = {name: np.asarray(value, float) for name, value in inputs.items()}
                 own = {name for name, value in shaped.items() if value.ndim == 1 and name in plan.table.entries}  # one a design
                 at_bad = {name: np.broadcast_to(value[:, None] if name in own else value, bad.shape)[bad] for name, value in shaped.items()}
-                here.broken[...] = unlike & bad
+                here.broken[...] = broken & bad
                 self._put_right(block, bad, at_bad, near[:, bad], here)
             for number, rows in enumerate(self.program.parts):
                 block[rows, here.empty[number]] = np.nan
@@ -163,10 +178,10 @@ class Evaluation:
     @np.errstate(all="ignore")
     def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, FloatArray], near: Mask, look: CloseLook) -> None:
         """Fill the `bad` poses of a block, from their paired inputs; `near`: for each request, where it has to be looked at closely."""
-        plan, lost = self.grid.plan, ~np.isfinite(block[:, bad]).all(axis=0)
+        plan, lost = self.grid.plan, ~np.isfinite(block[self.rows][:, bad]).all(axis=0)
         lost |= negative(plan, plan.reading(inputs), lost.shape)
         if lost.any():  # where something that the requests are built from cannot be placed
-            names, failed = members_behind(plan, self.requests), np.zeros(int(lost.sum()), bool)
+            names, failed = members_behind(plan, self.counting.values()), np.zeros(int(lost.sum()), bool)
             for name, mask in failures(plan, plan.read({name: value[lost] for name, value in inputs.items()}), failed.shape):
                 if name in names:
                     failed |= mask
@@ -183,47 +198,48 @@ class Evaluation:
                     look.worst[k] = told
         look.refused[:, bad], look.doubtful[:, bad] = refused, doubtful
         look.broken[bad] &= ~lost & ~refused.any(axis=0)
-        for number, rows in enumerate(self.program.parts):  # to rounding where they stand at a dead point, NaN where a request has no value
+        for number, request in self.counting.items():  # to rounding where they stand at a dead point, NaN where one has no value
+            rows = self.program.parts[number]
             values, without = block[rows, bad], lost | refused[number]
             at_end = ~without & ~np.isfinite(values).all(axis=0)
-            if not self.requests[number].order and at_end.any():
+            if not request.order and at_end.any():
                 at = {name: value[at_end] for name, value in inputs.items()}
                 values = to_rounding(values, at_end, self.program.kernel.plan.outputs[rows], at)
             look.missing[number, bad] = without = without | ~np.isfinite(values).all(axis=0)
             block[rows, bad] = np.where(without, np.nan, values)
 
 
-def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[int, list[int], Kernel]:
-    """Return how many of its outputs are assumptions, and gaps of each request; and the kernel.
+def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[Kernel, list[list[int]], list[list[int]], list[int]]:
+    """Return the kernel of how near each request is to a singular pose, and behind that of conditions, each once.
 
-    Its outputs are the assumptions, what tells whether there is a place, how near each request is, and the gaps of each.
+    With it its rows of each request's assumptions, of each request's gaps, and of what tells whether there is a place.
     """
-    assumed = [node for each in requests for node in each.notes(plan).assumed]
     near = list[Node]()
     for each in requests:
         each.nodes(plan)  # directions of its own are noted then
         near.append(plan.trace.nearness(each.names(plan)) - each.regular)
-    gaps = [each.gaps(plan) for each in requests]
-    kernel = Kernel([*assumed, *plan.trace.placeable(members_behind(plan, requests)), *near, *(node for each in gaps for node in each)])
-    return len(assumed), list(map(len, gaps)), kernel
+    every = [*(each.notes(plan).assumed for each in requests), *(each.gaps(plan) for each in requests)]
+    every.append(plan.trace.placeable(members_behind(plan, requests)))
+    place = {node: row for row, node in enumerate(dict.fromkeys(chain(*every)), len(near))}
+    rows = [[place[node] for node in nodes] for nodes in every]
+    return Kernel([*near, *place]), rows[: len(near)], rows[len(near) : -1], rows[-1]
 
 
 def guard_masks(
     plan: Plan, requests: tuple[Request, ...], inputs: Mapping[str, Any], size: tuple[int, int], way: RunOptions = QUICKEST
 ) -> tuple[Mask, Mask, Mask, Mask]:
-    """Return masks (m, n) of poses where an assumption does not hold, or there is no place, then masks (requests, m, n).
+    """Return the mask (m, n) of poses where there is no place, and masks (requests, m, n).
 
-    The third tells where each request has to be looked at closely, the last where it has no value, which is no error.
+    They tell where an assumption of each request does not hold, where it has to be looked at closely, and where it has no value, which
+    is no error.
     """
-    assumed, gaps, kernel = of_all("guards", plan, requests, watch_of)
-    count = len(kernel.plan.outputs)
+    kernel, *rows, placeable = of_all("guards", plan, requests, watch_of)
     with np.errstate(invalid="ignore"):
-        above = np.broadcast_to(kernel(inputs, size=size, way=way).values, (count, *size)) > 0.0
-    last = count - sum(gaps)  # those of the requests' gaps are the last ones
-    placed, far = above[assumed : last - len(requests)], above[last - len(requests) : last]
+        above = np.broadcast_to(kernel(inputs, size=size, way=way).values, (len(kernel.plan.outputs), *size)) > 0.0
+    far = above[: len(requests)]
     near = ~far & ~keeps_digits(plan, requests, inputs, ~far)
-    empty = np.array([~above[last + end - each : last + end].all(axis=0) for each, end in zip(gaps, accumulate(gaps), strict=True)])
-    return np.asarray(~above[:assumed].all(axis=0)), np.asarray(~placed.all(axis=0)), near, empty
+    unlike, empty = (np.array([~above[own].all(axis=0) for own in each_of]) for each_of in rows)
+    return np.asarray(~above[placeable].all(axis=0)), unlike, near, empty
 
 
 def grid_blocks(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:

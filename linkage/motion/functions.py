@@ -80,15 +80,15 @@ def evaluate_bound(asked: Evaluation, out: FloatArray | None, unreachable: str) 
         return values
     if look.broken.any() or (unreachable == "raise" and look.missing.any()):  # refused in the words of a motion
         motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design, rate_inputs=grid.rate_inputs)
-        for each in asked.requests:
+        for each in asked.counting.values():
             each.refuse(motion)
-        for each, refused in zip(asked.requests, look.refused, strict=True):
-            if refused.any():
+        for number, each in asked.counting.items():
+            if look.refused[number].any():
                 motion._refused_near(each, f"{grid.plan.title}: {each.sentence}")
-        for each in asked.requests:
+        for each in asked.counting.values():
             if each.notes(grid.plan).assumed:
                 raise other_law_error(grid.plan, each)
-        names = ", ".join(each.sentence for each in asked.requests)
+        names = ", ".join(each.sentence for each in asked.counting.values())
         text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
         raise SingularError(text, motion=motion)
     for number, worst in look.worst.items():

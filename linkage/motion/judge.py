@@ -173,6 +173,8 @@ class Domain:
         given = over if isinstance(over, Motion) else None
         self.over = over if isinstance(over, Over) else over.over
         self.plan, self.designs = plan, designs
+        self.program: tuple[Request, ...] = ()
+        """What the largest search asked in one program, by which others ask some of it."""
         for condition in self.over.only:
             check_condition(plan, condition)
         with unwarned():
@@ -226,11 +228,11 @@ class Domain:
         """
         title, shape = f"{self.plan.title}: sweep(over={self.over.name or self.over})", self.over.shape
         strokes, tangent = {name: np.ravel(value) for name, value in self.motion.strokes.items()}, None
-        if shape == "poses" and count is not None:
-            raise DefinitionError(f"{title}: it has {self.motion.reached.size} poses and nothing between them; leave out the count.")
+        what = f"{title}: it has {self.motion.reached.size} poses and nothing between them; leave out the count."
+        ensure(shape != "poses" or count is None, what)
         number = 101 if count is None else count
-        if shape != "poses" and (not is_whole(number) or number < 2):
-            raise DefinitionError(f"{title}: {cited(count)}: a whole number of poses is expected, 2 at least.")
+        is_count = shape == "poses" or (is_whole(number) and number >= 2)
+        ensure(is_count, f"{title}: {cited(count)}: a whole number of poses is expected, 2 at least.")
         if self.instants is not None:
             return self.timed(self.instants.shares(np.linspace(0.0, 1.0, number)), unreachable)
         if shape != "poses":
@@ -308,10 +310,8 @@ class Domain:
         if isinstance(acting.case, LoadCase) and not any(each is acting.case for each in declared.values()):
             return [PLAIN_CASE]  # one that is not of the class acts by itself
         name = case_named(self.plan, acting.case)
-        if name not in occurring:
-            where = self.over.name or cited(self.over)
-            what = f"{self.plan.title}: the load case {name} does not occur over {where}"
-            raise DefinitionError(f"{what}, where there are {', '.join(occurring)}.")
+        what = f"{self.plan.title}: the load case {name} does not occur over {self.over.name or cited(self.over)}"
+        ensure(name in occurring, f"{what}, where there are {', '.join(occurring)}.")
         return [name]
 
     def extremes(self, rows: Sequence[SearchRow]) -> tuple[list[Candidate], Coverage]:
@@ -326,6 +326,7 @@ class Domain:
     def searched(self, rows: Sequence[SearchRow]) -> tuple[list[Candidate], Coverage]:
         """Return the same, looked for."""
         asked, shape = RowFunction(self, rows), (len(rows), *self.motion._design_shape)
+        self.program = max(self.program, asked.program, key=len)
         time = np.full(shape, np.nan)
         if self.over.shape == "poses" or not self.motion.strokes:  # nothing between the poses
             with np.errstate(all="ignore"):
@@ -444,12 +445,13 @@ class RowFunction:
     def __init__(self, place: Domain, rows: Sequence[SearchRow]) -> None:
         self.place, self.rows, self.seen = place, rows, Coverage()
         self.plan = place.plan
-        self._bound: dict[int, Request] = {}
         self._rows: dict[int, RowFunction] = {}
-        for k, row in enumerate(rows):
-            bound = traced(self.plan, place.as_it_runs(row.request))
-            if bound is not None:
-                self._bound[k] = bound
+        bound = {k: traced(self.plan, place.as_it_runs(row.request)) for k, row in enumerate(rows)}
+        self._bound = {k: each for k, each in bound.items() if each is not None}
+        places = {each.key: number for number, each in enumerate(place.program)}
+        is_known = all(each.key in places for each in self._bound.values())
+        self.program = place.program if is_known else tuple(self._bound.values())
+        self._among = tuple(places[each.key] for each in self._bound.values()) if is_known else None
 
     def asks_for(self, motion: Motion) -> Mask:
         """Return the mask of poses that are asked for."""
@@ -484,9 +486,9 @@ class RowFunction:
             grid = Grid(self.plan, motion.designs, strokes, per_design=True, joining=grid.joining, rate_inputs=grid.rate_inputs)
         with unwarned(), np.errstate(all="ignore"):
             if self._bound:
-                found = evaluate_bound(Evaluation(grid, tuple(self._bound.values())), None, "nan")
-                for k, each in zip(self._bound, found, strict=True):
-                    values[k] = np.broadcast_to(each, motion.shape)
+                found = evaluate_bound(Evaluation(grid, self.program, among=self._among), None, "nan")
+                for k, number in zip(self._bound, self._among or range(len(found)), strict=True):
+                    values[k] = np.broadcast_to(found[number], motion.shape)
             alone = dict[Hashable, FloatArray]()
             for k, row in enumerate(self.rows):
                 if k not in self._bound:
@@ -613,8 +615,14 @@ class Judge:
     def for_design(self, number: int) -> Judge:
         """Return the judge of one design of a batch, by its number among them."""
         shape = self.places[0].motion._design_shape
-        designs = {name: float(np.broadcast_to(value, shape).ravel()[number]) for name, value in self.designs.items()}
-        return Judge(self.plan, designs, [place.over for place in self.places], self.acting, self.machine)
+        return self.of({name: float(np.broadcast_to(value, shape).ravel()[number]) for name, value in self.designs.items()})
+
+    def of(self, designs: Mapping[str, Numbers]) -> Judge:
+        """Return the judge of other designs over the same, by the same programs."""
+        found = Judge(self.plan, designs, [place.over for place in self.places], self.acting, self.machine)
+        for place, own in zip(found.places, self.places, strict=True):
+            place.program = own.program
+        return found
 
     @property
     def motion(self) -> Motion:

@@ -980,7 +980,7 @@ class Motion(Shown):
     def _refused_near(self, what: Request, words: str, are_places: bool = False) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked."""
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
-        _, unplaced, close, _ = guard_masks(self.plan, (what,), self._grid.flat, self._grid.size)
+        unplaced, _, close, _ = guard_masks(self.plan, (what,), self._grid.flat, self._grid.size)
         near = np.asarray(unplaced | close[0]).reshape(self.shape) & self.reached
         if near.any():
             found = self._near(what, near)

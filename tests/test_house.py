@@ -14,7 +14,7 @@ from tests.tools.sources import nodes, parsed, sources
 ROOT = Path(__file__).parents[1]
 
 FLOORS = (
-    ("errors", "checks", "units", "vectors", "disk", "frozen", "pickling", "language", "plugins", "shown", "star", "verdict"),
+    ("errors", "units", "vectors", "disk", "frozen", "pickling", "language", "plugins", "shown", "star", "verdict"),
     ("quantities", "numeric"),
     ("steps", "loads", "surroundings"),
     ("program",),

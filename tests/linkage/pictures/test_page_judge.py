@@ -36,6 +36,7 @@ from linkage.language import language
 from linkage.motion import HasVerdicts, judged_poses, live_text, pose_sentence
 from linkage.pictures.page_data import PageRequests, page_data
 from linkage.pictures.page_file import page_part
+from linkage.pictures.shown_values import typeset
 from linkage.reports import is_column
 from linkage.units import SYSTEMS, bar, deg, kN, mm, unit_system
 from mechanisms.crane import Crane
@@ -384,9 +385,9 @@ def delivered(data, name, system):
 
 
 def told(machine, name, system):
-    """Return the headings and sentences of a machine's verdicts."""
+    """Return the headings and sentences of a machine's verdicts, the powers of units raised as a page has them."""
     with language(name), unit_system(system or None):
-        return [(getattr(each, "heading", ""), getattr(each, "sentence", str(each))) for each in machine.verdicts()]
+        return [(getattr(each, "heading", ""), typeset(getattr(each, "sentence", str(each)))) for each in machine.verdicts()]
 
 
 def check_delivered(machine):

@@ -261,6 +261,7 @@ def test_a_page_says_of_its_poses_what_python_says(machine, lengths):
 
 
 MACHINES = {name: each for name, each in {**SHIPPED, **dict(elsewhere())}.items() if each.plan.of_kind(HasVerdicts)}
+AT_REST = [name for name, each in MACHINES.items() if all(over.time is None for over in each.plan.of_kind(Over).values())]
 QUICK = ("axle", "lifting_arm", "plough", "toggle_press")
 
 
@@ -284,7 +285,7 @@ def test_a_page_says_of_random_designs_what_python_says(name):
 
 @NEEDED
 @SLOW
-@pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.parametrize("name", AT_REST)  # what is asked along a path in time: test_page_in_time.py
 def test_a_page_says_of_a_hundred_random_designs_what_python_says(name):
     spread = 0.01 if name == "scissor_lift" else 0.03  # by 3 % it begins below the floor, where its thrust is nothing but rounding
     for lot in range(10):

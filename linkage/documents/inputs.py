@@ -16,6 +16,7 @@ from ..mechanism import Mechanism
 from ..motion import Motion, stroke_display_unit
 from ..pictures.dimensioned import dimensioned
 from ..pictures.scene import Scene
+from ..pictures.shown_values import unit_typeset
 from ..plan import spanning_name, written_out
 from ..quantities import Dimension, Stroke
 from ..reports import dimension_unit
@@ -111,7 +112,7 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
         said_of = notes.get(name) or notes.get(where) or notes.get(name.partition(".")[0], "")
         changed = said("was {value}", value=shown_number(entry.default, unit)) if float(value) != entry.default else ""
         note = "; ".join(each for each in (changed, said_of, said("not given") if is_left_out(machine, name) else "") if each)
-        sign = unit_sign(unit) if unit else ""
+        sign = unit_typeset(unit_sign(unit)) if unit else ""
         rows.append((name, Formula(listing.symbol_latex(name)), shown_number(float(value), unit, DIGITS), sign, where, note))
     heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("appears in"), said("source, note"))
     return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")

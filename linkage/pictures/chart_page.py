@@ -17,7 +17,7 @@ from .page_data import cylinder_data, scene_data, signs
 from .page_file import LANGUAGES, PageData, page_text
 from .page_judge import unit_data
 from .scene import Scene
-from .shown_values import typeset
+from .shown_values import unit_typeset
 
 Kind = TypeVar("Kind", bound=np.generic)
 PARTS = ("chart.html", "page.css", "chart.css", "mechanism.js", "labels.js", "chart.js")
@@ -65,7 +65,7 @@ def chart_data(field: WorkingField, scene: Scene) -> PageData:
         "letters": [text.letters.get(name, "") for name in names],
         "counts": [text.counts.get(name, 0) for name in names],
         "strokes": [
-            {"name": name, "start": stroke.start, "end": stroke.end, "unit": typeset(units[name]), "factor": factor(units[name])}
+            {"name": name, "start": stroke.start, "end": stroke.end, "unit": unit_typeset(units[name]), "factor": factor(units[name])}
             | {"values": as_printed(field, field.strokes[name])[known].tolist()}
             for name, stroke in plan.strokes.items()
         ],
@@ -93,7 +93,7 @@ def words_of_chart(field: WorkingField, names: list[str], name: str) -> PageData
         text = ChartText(spoken)
         return {
             "title": text.title,
-            "unit": typeset(unit_sign(text.unit)),
+            "unit": unit_typeset(unit_sign(text.unit)),
             "across": text.axes[0],
             "down": text.axes[1],
             "limiters": [heading_of(each) for each in names],

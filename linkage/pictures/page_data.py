@@ -35,7 +35,7 @@ from .page_file import EVENTS, MACHINE, START, PageData, page_part, page_text, t
 from .page_forces import force_arrows, page_situations, situated_requests, situated_rows
 from .page_judge import LiveQuestions, course_data, rule_key, share_used, unit_data
 from .scene import DrawnMark, Plate, Scene, SlideTrack
-from .shown_values import WHOLE, Limit, as_curve, check_poses, limit_of, named_points, typeset
+from .shown_values import WHOLE, Limit, as_curve, check_poses, limit_of, named_points, typeset, unit_typeset
 from .strokes import ends_where_begun, is_turn
 
 FONT = 14.0
@@ -315,24 +315,24 @@ def machine_text(requests: PageRequests, live: LiveText, data: PageData, parts: 
 def unit_tables(used: set[str]) -> PageData:
     """Return the units of the page's script: the factors of all that measure what the used ones do, and their signs."""
     known = {*used, "bar", "mm", "kN", "kNm"}
-    kinds = {measure for unit, (_, measure) in UNITS.items() if typeset(unit) in known}
+    kinds = {measure for unit, (_, measure) in UNITS.items() if unit_typeset(unit) in known}
     return {
         "pressureUnit": unit_data("bar"),
         "length": unit_data("mm"),
         "force": unit_data("kN"),
         "moment": unit_data("kNm"),
         "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN", "kNm"))}),
-        "measures": {typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items() if measure in kinds},
-        "systems": {name: {kind: typeset(unit) for kind, unit in units.items() if kind in kinds} for name, units in SYSTEMS.items()},
+        "measures": {unit_typeset(unit): [factor(unit), measure] for unit, (_, measure) in UNITS.items() if measure in kinds},
+        "systems": {name: {kind: unit_typeset(unit) for kind, unit in units.items() if kind in kinds} for name, units in SYSTEMS.items()},
         "systemNames": SYSTEM_NAMES,
     }
 
 
 def signs(units: set[str]) -> dict[str, str]:
     """Return how units are written in Russian, those that are written otherwise."""
-    plain = {typeset(unit): unit for unit in UNITS}
+    plain = {unit_typeset(unit): unit for unit in UNITS}
     with language("ru"):
-        found = {unit: typeset(translated(plain.get(unit, unit))) for unit in sorted(units)}
+        found = {unit: unit_typeset(translated(plain.get(unit, unit))) for unit in sorted(units)}
     return {unit: sign for unit, sign in found.items() if sign != unit}
 
 
@@ -355,7 +355,8 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
         where = entry.where if entry.kind in STEPS else ""
         low, high = ends if isinstance(ends, list) else (value - ends, value + ends)
         sizes = [each for each in made.get(name, ()) if low / 1.3 <= each <= 1.3 * high]  # the next one beyond its slider, too
-        found.append([name, value, ends, typeset(unit), int(entry.kind == "length"), where, sizes][: 7 if sizes else 6 if where else 5])
+        row = [name, value, ends, unit_typeset(unit), int(entry.kind == "length"), where, sizes]
+        found.append(row[: 7 if sizes else 6 if where else 5])
     return found
 
 
@@ -441,7 +442,7 @@ def column_data(name: str, column: Column, live: LiveText, requests: PageRequest
     """
     with language("ru"):
         russian = typeset(heading_of(name))
-    shown, start = typeset(name), [typeset(name), typeset(shown_in(column.unit))]
+    shown, start = typeset(name), [typeset(name), unit_typeset(shown_in(column.unit))]
     count = len(requests.situations)
     places = situated_rows(f"column {name}", live, count)
     if isinstance(places, int) or (places and -1 not in places):

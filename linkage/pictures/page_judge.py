@@ -40,7 +40,7 @@ from ..reports import at_its_rates, is_column
 from ..units import display_unit, factor, shown_in
 from ..verdict import Verdict
 from .page_file import PageData
-from .shown_values import limit_of, typeset
+from .shown_values import limit_of, typeset, unit_typeset
 
 Piece: TypeAlias = tuple[int, SearchRow, str]
 """The place of an `Over` among those of the judge, what is sought over it, and the name of its row."""
@@ -321,7 +321,7 @@ def own_unit(plan: Plan, constraint: Constraint, first: Constraint) -> PageData:
 
 def unit_data(unit: str) -> PageData:
     """Return the unit that values of a unit are shown in, and its factor."""
-    return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
+    return {"unit": unit_typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
 
 
 def over_data(place: Domain, rows: Mapping[tuple[str, int], int]) -> PageData:

@@ -106,8 +106,13 @@ def typeset(text: str) -> str:
     return POWER.sub(lambda unit: unit[1] + "²³"[int(unit[2]) - 2], text.replace("kgf_cm2", "kgf/cm2"))
 
 
-POWER = re.compile(r"(?:(?<=[/\d])|(?<=[\d,g] )|^(?=[cm]?m[23]$))([cm]?m|s)([23])\b")
-"""A square or cube of a length or a second: behind a slash, a number or the comma of a heading, or a unit by itself."""
+def unit_typeset(unit: str) -> str:
+    """Return a unit as it is printed; what may be a name, such as m2, is not taken for one."""
+    return typeset(f"/{unit}")[1:]
+
+
+POWER = re.compile(r"(?:(?<=[/\d])|(?<=\d )|(?<=kg )|(?<=, )(?=[cm]?m[23]$))([cm]?m|s)([23])\b")
+"""A square or cube of a length or a second: behind a slash, a number, a kilogram, or the last comma of a heading."""
 
 
 # Joint forces: the body on which one is shown, and how bodies are called.

@@ -63,7 +63,7 @@ from linkage.formulas import equations
 from linkage.formulas.mathml import mathml
 from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes, rough_width
 from linkage.motion import Column
-from linkage.pictures.shown_values import typeset
+from linkage.pictures.shown_values import typeset, unit_typeset
 from linkage.reports.values import in_digits, with_units
 from linkage.statics import elements_of
 from linkage.units import bar, deg, mm
@@ -278,8 +278,9 @@ def test_powers_of_units_are_raised_and_names_are_not():
     text = "(0.96 at 155 kgf/cm2, 9.81 m/s2), 3.5 cm2 of m2, SS2 and cm2"
     assert set_in_type(text) == "(0.96 at 155 kgf/cm², 9.81 m/s²), 3.5 cm² of m2, SS2 and cm2"
     for name in ("boom2", "m2", "tool.cm3"):
+        assert typeset(name) == name
         assert typeset(f"thrust {name}, kgf/cm2: 3 m2") == f"thrust {name}, kgf/cm²: 3 m²"
-    assert [typeset(each) for each in ("m2", "kg m2", "N/mm2", "kgf_cm2")] == ["m²", "kg m²", "N/mm²", "kgf/cm²"]
+    assert [unit_typeset(each) for each in ("m2", "kg m2", "N/mm2", "kgf_cm2")] == ["m²", "kg m²", "N/mm²", "kgf/cm²"]
     shown_texts = [each for each in texts(shown(MowerLift)) if "kgf/cm" in each]
     assert shown_texts and not [each for each in shown_texts if "kgf/cm2" in each]
 

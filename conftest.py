@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 from _pytest.doctest import DoctestModule
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from linkage import mechanism
 from linkage.mobility import check
 
-settings.register_profile("steady", deadline=None, max_examples=25)
+settings.register_profile("steady", deadline=None, max_examples=25, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("steady")
 
 

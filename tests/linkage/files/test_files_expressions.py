@@ -3,7 +3,7 @@
 from math import pi
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from linkage import DefinitionError, FileError
@@ -110,7 +110,6 @@ sums = st.recursive(
 )
 
 
-@settings(deadline=None)
 @given(sums)
 def test_text_of_an_expression_is_stable(text):
     try:
@@ -130,7 +129,6 @@ python = st.recursive(
 )
 
 
-@settings(deadline=None)
 @given(python)
 def test_arithmetic_is_python_s(text):
     """What a file says is what the same text says in a class: the same brackets, the same calculation at once."""
@@ -145,7 +143,6 @@ def test_arithmetic_is_python_s(text):
     assert str(expression(text, NAMES)) == written
 
 
-@settings(deadline=None)
 @given(st.floats(-1e11, 1e11))
 def test_numbers_are_exact(value):
     assert expression(repr(value), NAMES).number == value

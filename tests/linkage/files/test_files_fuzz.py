@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from linkage import AssemblyError, DefinitionError, FileError
@@ -94,25 +94,21 @@ def broken_text(draw):
     return f"{text}\n"
 
 
-@settings(deadline=None)
 @given(broken_tables())
 def test_broken_tables(tables):
     settled(from_dict, tables)
 
 
-@settings(deadline=None)
 @given(broken_tables(("loads", "cases", "hydraulics")))
 def test_broken_loads(tables):
     settled(from_dict, tables)
 
 
-@settings(deadline=None)
 @given(broken_text())
 def test_broken_text(text):
     settled(load, text)
 
 
-@settings(deadline=None)
 @given(st.binary(max_size=200) | broken_text().map(lambda text: text.encode("utf-16", "surrogatepass")), st.booleans())
 @example(b"\xff\xfe", False)
 @example(b"", True)
@@ -124,14 +120,12 @@ def test_any_bytes(raw, is_json):
     settled(from_dict, found.data)
 
 
-@settings(deadline=None)
 @given(VALUES)
 def test_anything_at_all(value):
     settled(from_dict, value)
 
 
 @pytest.mark.slow
-@settings(deadline=None)
 @given(EXPRESSIONS)
 def test_any_expression_as_an_output_and_as_a_length(text):
     for path in ("outputs", "u"), ("points", "B", "AB"), ("points", "G", "KFG"), ("ground", "A"):

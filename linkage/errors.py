@@ -9,12 +9,12 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from contextlib import contextmanager
 from difflib import get_close_matches
 from traceback import extract_tb
-from typing import Any, TypeGuard, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar, cast
 
-import numpy as np
-import numpy.typing as npt
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
-from .vectors import FloatArray, Scalar
+    from .vectors import FloatArray, Scalar
 
 Kind = TypeVar("Kind")
 Result = TypeVar("Result")
@@ -265,13 +265,18 @@ class FormerName:
         return getattr(holder, self._name)
 
 
-# What is given at public doors: a value of a kind, refused in one form of words.
+# What is given at public doors: a value of a kind, refused in one form of words. NumPy is loaded by those that ask it, as above.
 
 
 def is_number(value: object) -> TypeGuard[float]:
     """Return whether a value is one finite real number."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+    if isinstance(value, bool):
         return False
+    if not isinstance(value, (int, float)):
+        import numpy as np
+
+        if not isinstance(value, (np.integer, np.floating)):
+            return False
     try:
         return math.isfinite(value)
     except OverflowError:
@@ -280,7 +285,11 @@ def is_number(value: object) -> TypeGuard[float]:
 
 def is_whole(value: object) -> TypeGuard[int]:
     """Return whether a value is one whole number, Python's or NumPy's."""
-    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if isinstance(value, int):
+        return not isinstance(value, bool)
+    import numpy as np
+
+    return isinstance(value, np.integer)
 
 
 def is_listed(given: object) -> TypeGuard[Sequence[Any]]:
@@ -305,6 +314,8 @@ def can_be_called(given: object) -> TypeGuard[Callable[..., object]]:
 
 def two_of(given: object) -> tuple[Scalar, ...]:
     """Return both parts of a list, a tuple or an array of two, such as the coordinates of a place; nothing for anything else."""
+    import numpy as np
+
     parts = tuple(given) if is_listed(given) or (isinstance(given, np.ndarray) and given.ndim) else ()
     return parts if len(parts) == 2 else ()
 
@@ -315,6 +326,8 @@ VERBS = ("is ", "has ", "stands ", "cannot ", "compares ", "does ")
 
 def fits_shape(value: object, shape: tuple[int, ...]) -> bool:
     """Return whether a number or an array can be broadcast to a shape, that of some poses."""
+    import numpy as np
+
     try:
         return np.broadcast_shapes(np.shape(cast(float, value)), shape) == shape
     except ValueError:
@@ -323,6 +336,8 @@ def fits_shape(value: object, shape: tuple[int, ...]) -> bool:
 
 def of_one_shape(what: str, names: Iterable[str], arrays: Sequence[FloatArray]) -> list[FloatArray]:
     """Return named arrays broadcast against each other; DefinitionError, with all shapes, where they do not fit: `the strokes' shapes`."""
+    import numpy as np
+
     try:
         return list(np.broadcast_arrays(*arrays))
     except ValueError:
@@ -344,6 +359,8 @@ def require(holds: object, what: str, value: object, expected: str) -> None:
 
 def require_one_design(designs: Mapping[str, object], said: str) -> None:
     """Refuse a batch by its dimensions: `Crane: a figure shows one design, this is a batch, L has 3 values; choose one of them.`"""
+    import numpy as np
+
     for name, value in designs.items():
         values = np.asarray(value)
         ensure(not values.ndim, f"{said}, this is a batch, {name} has {values.size} values; choose one of them.")

@@ -555,7 +555,7 @@ def test_list_loads_no_machine():
     assert (done.returncode, err) == (0, "") and "three_point_hitch" in out
     loaded = set(out[out.rindex("loaded") :].split())
     assert not [name for name in loaded if name.startswith(("mechanisms.", "hydraulics"))]
-    assert not loaded & {"linkage.mechanism", "matplotlib", "sympy", "scipy", "networkx", "rich", "pydantic", "PIL", "numba"}
+    assert not loaded & {"linkage.mechanism", "numpy", "matplotlib", "sympy", "scipy", "networkx", "rich", "pydantic", "PIL", "numba"}
 
 
 @pytest.mark.parametrize("source", ['"""It."""\nHitch = type("Hitch", (), {"__doc__": "Made by a call."})\n', "Hitch = 1 +\n", None])

@@ -11,12 +11,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import ensure
-from ..loads import ForceElement
 from ..mechanism import Mechanism
 from ..plan import spanning_name, strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
-from ..reports.values import in_digits, with_units
+from ..reports.values import with_units
 from .command import Command, group, lined_up, machine_options, option, picture, picture_option, repeatable, whole_number
 from .listing import wrapped
 from .settings import CHECK, OVER, judged_code, machine_of, overs_of, strokes_given
@@ -71,9 +70,8 @@ def show_command(options: Namespace) -> int:
     print_section("Bodies", [*bodies, f"Gruebler count {machine.gruebler} (a cylinder is two bodies on a slide), {count}"])
     changed = {name: value for name, value in machine.dimensions.items() if value != plan.defaults[name]}
     written = written_out(plan, changed)  # as this design has the members, without the dimensions listed already
-    elements, left = plan.of_kind(ForceElement), plan.of_kind(Dimension)
-    texts = {name: with_units(elements[name], text) if name in elements else in_digits(text) for name, text in written.items()}
-    print_section("Construction, in order", [f"{name} = {text}" for name, text in texts.items() if name not in left])
+    lines = [f"{name} = {with_units(plan, name, text)}" for name, text in written.items() if name not in plan.of_kind(Dimension)]
+    print_section("Construction, in order", lines)
     if options.equations:
         print_section("Equations", str(printed_equations(machine, options, at)).splitlines(), fits=False)
     verdicts = machine.verdicts(over=over)

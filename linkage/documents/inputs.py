@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import partial
 
 from matplotlib.axes import Axes
@@ -20,7 +20,7 @@ from ..pictures.shown_values import unit_typeset
 from ..plan import spanning_name, written_out
 from ..quantities import Dimension, Stroke
 from ..reports import dimension_unit
-from ..reports.values import DIGITS, in_digits, is_left_out, with_units
+from ..reports.values import DIGITS, is_left_out, with_units
 from ..statics.vehicle import frame_supports
 from ..units import shown_number, unit_sign
 from .content import Block, Cell, Formula, Illustration, Section, TableBlock
@@ -38,15 +38,12 @@ def inputs_section(subject: ReportSubject, listing: Equations) -> Section:
         blocks.append(dimension_table(machine, listing, notes))
     elements, heads = machine.plan.of_kind(ForceElement), (said("name"), said("declared as"), said("source, note"))
     if elements:
-        declared = member_rows(machine, tuple(elements), notes)
-        rows = tuple((name, with_units(elements[name], text), note) for name, text, note in declared)
-        blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
+        blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, member_rows(machine, elements, notes), "lmm"))
     else:
         blocks.append(said("No load is declared: forces are not calculated."))
     cases = machine.plan.of_kind(LoadCase)
     if cases:
-        rows = tuple((name, in_digits(text), note) for name, text, note in member_rows(machine, tuple(cases), notes))
-        blocks.append(TableBlock(said("Load cases"), heads, rows, "lmm"))
+        blocks.append(TableBlock(said("Load cases"), heads, member_rows(machine, cases, notes), "lmm"))
     pose = subject.machine.at(unreachable="nan", **{name: [value] for name, value in subject.pose.items()})
     caption = said(
         "Dimensions in {unit} at {pose}; the table of dimensions has those without room.",
@@ -118,18 +115,18 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
     return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 
-def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[str, str, str], ...]:
-    """Return members as they are declared."""
+def member_rows(machine: Mechanism, names: Iterable[str], notes: Mapping[str, str]) -> tuple[tuple[str, str, str], ...]:
+    """Return members as they are declared, their numbers with units."""
     texts = written_out(machine.plan, {name: float(value) for name, value in machine.dimensions.items()})
-    return tuple((name, texts[name], notes.get(name, "")) for name in names)
+    return tuple((name, with_units(machine.plan, name, texts[name]), notes.get(name, "")) for name in names)
 
 
 def definition_section(machine: Mechanism) -> Section:
     """Return the section that has the whole definition, member by member, and the rigid bodies."""
     left_out = (Dimension, Stroke, ForceElement, LoadCase)  # these stand among the inputs
-    names = tuple(name for name, member in machine.plan.members.items() if not isinstance(member, left_out))
+    names = [name for name, member in machine.plan.members.items() if not isinstance(member, left_out)]
     heads = (said("name"), said("declared as"))
-    rows = tuple((name, in_digits(OF_PART.sub("", text))) for name, text, _ in member_rows(machine, names, {}))
+    rows = tuple((name, OF_PART.sub("", text)) for name, text, _ in member_rows(machine, names, {}))
     cylinders = [(spanning_name(machine.plan, bar.P, bar.Q), f"{bar.P} {bar.Q}") for bar in machine.plan.cylinders]
     links = machine.plan.link_names
     named = ((said("frame") if body.fixed else links.get(body.name, body.name), " ".join(body.points)) for body in machine.links)

@@ -155,7 +155,7 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         return self.words.get(f"{expr.parent.name}.{axis}") or rf"{self._print(expr.parent)}_{{{axis}}}"
 
     def _print_Float(self, expr: sympy.Float) -> str:
-        return number_latex(plain_number(float(expr), 12))
+        return number_latex(plain_number(float(expr), 7))
 
     _print_Add = _print_MatAdd = Text._print_Add
 

@@ -105,6 +105,6 @@ def draw_corners(ax: Axes, poses: FloatArray, arm: float) -> None:
         along, across = polar(angle), left_of(polar(angle))
         corner = np.array([[x, y] + arm * along, [x, y], [x, y] + 0.5 * arm * across])
         ax.plot(*corner.T, color=style.INK, linewidth=2.2, solid_joinstyle="round", zorder=7.0)
-        beside = np.array([x, y]) - 0.28 * arm * (along + across)
+        beside = np.array([x, y]) - 0.2 * arm * (along + across)
         look: Keywords = {"fontsize": style.LABEL, "color": style.INK, "ha": "center", "va": "center"}
         ax.text(float(beside[0]), float(beside[1]), str(number), zorder=8.0, **look)

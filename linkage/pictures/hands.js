@@ -144,11 +144,8 @@ function noted() {
 }
 function keysOf() { byId("undo").disabled = done.length < 2; byId("redo").disabled = !undone.length; }
 function backAt(text) {
-  let stood;
-  [present, stood, runs, chosen] = JSON.parse(text);
-  stands = stood;
-  play(false); warn(""); listSizes(); choosers(); soon("design");
-  keysOf();
+  [present, stands, runs, chosen] = JSON.parse(text);
+  play(false); warn(""); listSizes(); choosers(); soon("design"); keysOf();
 }
 function undo() {
   noted();
@@ -197,7 +194,7 @@ function measureText(real) {
 
 /* ---- the curve read at the mouse; a press moves the stroke there ---- */
 
-let glass = null, pressed = false;
+let glass = null;
 function reader() {
   glass = { line: draw(plot, "line", { class: "rule", dash: "2 3", visibility: "hidden" }), text: draw(plot, "text", { class: "halo read", visibility: "hidden" }) };
 }
@@ -207,13 +204,12 @@ function under(event) {
 }
 on(plot, "pointermove", (event) => {
   if (!chart || !glass || !chart.values) return;
-  const { share, at } = under(event), where = share * (COUNT - 1), i = min(floor(where), COUNT - 2), t = where - i, { values, along, one } = chart;
-  const value = t === 0 ? values[i] : values[i] + (values[i + 1] - values[i]) * t, stroke = strokes[runs], box = plot.getBoundingClientRect();
+  const { share, at } = under(event), { values, one } = chart, stroke = strokes[runs], place = stroke.start + (stroke.end - stroke.start) * share;
+  const box = plot.getBoundingClientRect(), isRight = at > 0.5 * box.width;
   set(glass.line, { x1: at, x2: at, y1: 10, y2: box.height - 40, visibility: "visible" });
-  const place = short(along[i] + (along[i + 1] - along[i]) * t, 4) + unitText(stroke.unit), isRight = at > 0.5 * box.width;
-  glass.text.textContent = `${titled(stroke)} = ${place}: ${readOff(value, values, one)}`;
+  glass.text.textContent = `${titled(stroke)} = ${short(place / stroke.factor, 4) + unitText(stroke.unit)}: ${readOff(valueAt(values, place), values, one)}`;
   set(glass.text, { x: at + (isRight ? -8 : 8), y: 22, anchor: isRight ? "end" : "start", visibility: "visible" });
-  if (pressed) strokeTo(share);
+  if (plot.hasPointerCapture(event.pointerId)) strokeTo(share);
 });
 on(plot, "pointerleave", () => { if (glass) for (const each of Object.values(glass)) set(each, { visibility: "hidden" }); });
 function strokeTo(share) {
@@ -224,5 +220,4 @@ function strokeTo(share) {
   clock = phaseNow();
   soon("pose"); remember();
 }
-on(plot, "pointerdown", (event) => { if (chart) { pressed = true; plot.setPointerCapture(event.pointerId); strokeTo(under(event).share); } });
-for (const end of ["pointerup", "pointercancel"]) on(plot, end, () => { pressed = false; });
+on(plot, "pointerdown", (event) => { if (chart) { plot.setPointerCapture(event.pointerId); strokeTo(under(event).share); } });

@@ -11,21 +11,26 @@ function settings() {
   }
   return [...plain];
 }
-/* A number as it is copied: to what matters. */
+/* A number as it is copied: to what matters; a pressure or an angle in the unit that is shown, as `measured` writes it, of a point both. */
 const figure = (value) => String(Number(value.toPrecision(7)));
-const asPython = () => {
-  const isPlain = ([name]) => !name.includes("."), value = (given) => (given.length ? `(${given.map(figure).join(", ")})` : figure(given)), found = settings();
-  const dotted = found.filter((each) => !isPlain(each)).map(([name, given]) => `"${name}": ${value(given)}`);
-  const made = [...found.filter(isPlain).map(([name, given]) => `${name}=${value(given)}`), ...(dotted.length ? [`**{${dotted.join(", ")}}`] : [])].join(", ");
-  return `${data.module ? `from ${data.module} import ${data.class}\n\n` : ""}machine = ${data.class}(${made})${found.length ? "" : "  # unchanged"}\n`;
-};
+function figures([name, given], measured) {
+  const { unit, factor } = dims[byName.get(name)] ?? {};
+  return /^(bar|MPa|deg)$/.test(unit) ? measured(figure(given / factor), unit) : given.length ? given.map(figure) : figure(given);
+}
+function asPython() {
+  const units = new Set(), inUnit = (number, unit) => { units.add(unit); return `${number} * ${unit}`; }, isPlain = ([name]) => !name.includes(".");
+  const value = (each) => { const text = figures(each, inUnit); return text.map ? `(${text.join(", ")})` : text; }, found = settings();
+  const dotted = found.filter((each) => !isPlain(each)).map((each) => `"${each[0]}": ${value(each)}`);
+  const made = [...found.filter(isPlain).map((each) => `${each[0]}=${value(each)}`), ...(dotted.length ? [`**{${dotted.join(", ")}}`] : [])].join(", ");
+  const from = [units.size ? `from linkage import ${[...units].join(", ")}\n` : "", data.module ? `from ${data.module} import ${data.class}\n` : ""].join("");
+  return `${from}${from && "\n"}machine = ${data.class}(${made})${found.length ? "" : "  # unchanged"}\n`;
+}
 const asToml = () => {
-  const lines = settings().map(([name, given]) => `${name.includes(".") ? `"${name}"` : name} = ${given.length ? `[${given.map(figure).join(", ")}]` : figure(given)}`);
+  const lines = settings().map((each) => { const text = figures(each, (number, unit) => `"${number} ${unit}"`); return `${each[0].includes(".") ? `"${each[0]}"` : each[0]} = ${text.map ? `[${text.join(", ")}]` : text}`; });
   return [`machine = "${data.machine}"`, "", "[set]", ...(lines.length ? lines : ["# unchanged"])].join("\n") + "\n";
 };
-const asOptions = () => settings().map(([name, given]) => `--set ${name}=${[given].flat().map(figure).join(",")}`).join(" ") || "# unchanged";
-const FORMS = { python: asPython, toml: asToml, options: asOptions };
-for (const [form, text] of Object.entries(FORMS)) on(byId(`as-${form}`), "click", (event) => { byId("text").value = text(); copied(text(), event.currentTarget.firstChild); });
+const asOptions = () => settings().map((each) => `--set ${each[0]}=${figures(each, (number, unit) => number + unit)}`).join(" ") || "# unchanged";
+for (const [form, text] of Object.entries({ python: asPython, toml: asToml, options: asOptions })) on(byId(`as-${form}`), "click", (event) => { byId("text").value = text(); copied(text(), event.currentTarget.firstChild); });
 
 /* Return what a text sets, by names, and the names that are none here: Python, TOML, --set, or a link of this page. */
 function pasted(text) {

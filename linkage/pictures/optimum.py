@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..errors import ensure, require_whole
+from ..language import said
 from ..motion import Column, Motion, stroke_display_unit
 from ..motion.measures import At, Leaf, Measure, words_of
 from ..program import FloatArray
@@ -58,7 +59,8 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     for ax, pose in zip(axes, (0, count - 1), strict=True):
         overlaid(ax, before, after, pose)
         ax.set_title(stroke_words(after.plan, name, float(after.strokes[name][pose])), fontsize=style.TEXT, color=style.MUTED, loc="right")
-    write_title(figure, after.plan.heading)
+    held = StrokeAxis.of(after).held
+    write_title(figure, after.plan.heading, said("at {place}", place=held) if held else "")
     legend_row(axes[0], [*look_keys([FAINT, STRONG]), Line2D([], [], color=style.ACCENT, linewidth=1.4)], ["before", "after", "moved, mm"])
     return figure
 

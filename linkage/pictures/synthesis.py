@@ -186,7 +186,8 @@ def draw_wanted(ax: Axes, shown: ShownAnswer, stretch: float) -> FloatArray:
     numbers = [n for n in range(1, len(wanted) + 1) if len(wanted) <= MOST_NUMBERED or n == 1 or n % 5 == 0]
     at = {str(n): wanted[n - 1] for n in numbers}
     path = shown.swept[shown.point].reshape(2, -1).T
-    taken = np.concatenate([cloud(shown.scene, shown.scene.at(0))[::2], path[np.isfinite(path).all(axis=1)], wanted, ends])
+    misses = np.linspace(wanted, ends, 9).reshape(-1, 2)
+    taken = np.concatenate([cloud(shown.scene, shown.scene.at(0))[::2], path[np.isfinite(path).all(axis=1)], misses])
     covered = []
     for number, spot in offsets([*at], [at], [taken], scale, 5.0, style.SMALL).items():
         haloed_beside(ax, number, at[number], spot, style.SMALL, style.CURVE, 2.2, ha="center", fontweight="bold", zorder=12.6)

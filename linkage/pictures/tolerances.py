@@ -95,9 +95,8 @@ def band_panel(ax: Axes, along: StrokeAxis, band: Band, unit: str, limits: Seque
     for limit in limits:  # the panel keeps its range, widened by as much again at most
         line = np.broadcast_to(drawn(limit.value), at.shape)
         bottom, top = ax.get_ylim()
-        if not narrow:
-            bottom, top = max(min(bottom, line.min()), 2.0 * bottom - top), min(max(top, line.max()), 2.0 * top - bottom)
-            ax.set_ylim(bottom, top)
+        if not narrow and 2.0 * bottom - top < line[0] < 2.0 * top - bottom:
+            bottom, top = ax.set_ylim(min(bottom, line[0] - 0.5 * air), max(top, line[0] + 0.5 * air))
         if np.any((line > bottom) & (line < top)):
             beyond, where = (top, line < top) if limit.fails == "above" else (bottom, line > bottom)
             ax.fill_between(at, line, beyond, where=where, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0, interpolate=True)

@@ -174,7 +174,7 @@ function cylinder(each, changed, add) {
     if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]] + (0.5 * (slopes[k - 1] + slopes[k]) * (now.along[1] - now.along[0])) / (slopes[k - 1] - slopes[k])) }), more);
   }
   const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]), before = base.values[each.pressure] || [];
-  if (pressed && each.most === undefined) add(null, each.name, say("needs up to {pressure} at {where}", { pressure: shown(pressed.high.value, data.pressureUnit, 4), where: strokeText(pressed.high.at) }), more);
+  if (pressed && each.most === undefined && pressed.high.value > 0) add(null, each.name, say("needs up to {pressure} at {where}", { pressure: shown(pressed.high.value, data.pressureUnit, 4), where: strokeText(pressed.high.at) }), more);
   else if (!pressed && now.reached.length && [...before].some(isNumber)) add(false, each.name, say("has no pressure with these sizes; is the rod thinner than the bore?"), more);
 }
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from ..errors import is_listed
 from ..language import said
-from ..loads import ForceElement
+from ..loads import ForceElement, TwoPoint
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import stroke_display_unit
-from ..plan import plan_measure
+from ..plan import Plan, plan_measure
 from ..quantities import Member, is_number
 from ..units import display_unit, show, shown_number, unit_sign
 
@@ -55,9 +55,19 @@ PARAMETER = re.compile(r"(, |(?<![\w.]))(\w+)=(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?=
 """A number by itself; one in an expression keeps its SI, as the names beside it have no unit there."""
 
 
-def with_units(element: ForceElement, text: str) -> str:
-    """Return how an element is declared, its numbers in the units that they are shown in: `pressure=180 bar`; no number left as it is."""
-    units, defaults = number_units(element), {name: each.default for name, each in inspect.signature(type(element)).parameters.items()}
+def with_units(plan: Plan, name: str, text: str) -> str:
+    """Return how a member is declared, the numbers of an element in the units that they are shown in, `pressure=180 bar`.
+
+    None is left as it is. Strokes at which a line is filled have the strokes' units, cylinders' lengths a length's.
+    """
+    element = plan.members[name]
+    if not isinstance(element, ForceElement):
+        return in_digits(text)
+    strokes = {each: stroke_display_unit(plan, each, "mm") for each in plan.strokes}
+    alone = {"at": next(iter(strokes.values()))} if len(strokes) == 1 else {}
+    own = {name: unit for name, unit in number_units(element).items() if unit}
+    units = dict.fromkeys(plan.of_kind(TwoPoint), "mm") | strokes | alone | own
+    defaults = {each: parameter.default for each, parameter in inspect.signature(type(element)).parameters.items()}
 
     def shown(found: re.Match[str]) -> str:
         comma, name, value = found[1], found[2], float(found[3])

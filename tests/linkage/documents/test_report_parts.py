@@ -64,7 +64,7 @@ from linkage.formulas.mathml import mathml
 from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes, rough_width
 from linkage.motion import Column
 from linkage.pictures.shown_values import typeset, unit_typeset
-from linkage.reports.values import in_digits, with_units
+from linkage.reports.values import with_units
 from linkage.statics import elements_of
 from linkage.units import bar, deg, mm
 from mechanisms.at_work.excavator import Excavator
@@ -229,9 +229,9 @@ def test_no_number_stands_without_its_unit():
 
 def test_a_number_in_an_expression_keeps_its_unit_to_itself():
     """`mass=0.55 * W` is no 0.55 kg; in a formula 2.9e-07 is a power of ten, and 180 deg stay degrees beside an angle."""
-    element = Weight("G", mass=1.0)
-    assert with_units(element, "Weight(G, mass=0.55 * W)") == "Weight(G, mass=0.55 * W)"
-    assert with_units(element, "Weight(G, mass=2.5)") == "Weight(G, mass=2.5 kg)"
+    plan = Loader().plan
+    assert with_units(plan, "load", "Weight(G, mass=0.55 * W)") == "Weight(G, mass=0.55 * W)"
+    assert with_units(plan, "load", "Weight(G, mass=2.5)") == "Weight(G, mass=2.5 kg)"
     listing = equations(Bent())
     assert "COD = bend + 180 deg" in str(listing) and r"2.95468 \cdot 10^{-7} M" in listing.latex()
 
@@ -246,9 +246,9 @@ def test_a_note_loses_the_unit_that_the_table_converts(note, shown_as):
 
 def test_declared_numbers_have_seven_digits_and_a_part_says_each_once():
     machine = Telehandler(**{"forks.NW": 0.29})
-    rows = {name: in_digits(text) for name, text, _ in member_rows(machine, tuple(machine.plan.members), {})}
-    assert (with_units(machine.plan.members["ram"], "Cylinder(A, B, closed=1.2850549999)")) == "Cylinder(A, B, closed=1285.05 mm)"
-    text = with_units(machine.plan.members["outer"], "LinkMass('O B', mass=700, at=(2.0, -0.015))")
+    rows = {name: text for name, text, _ in member_rows(machine, machine.plan.members, {})}
+    assert with_units(machine.plan, "ram", "Cylinder(A, B, closed=1.2850549999)") == "Cylinder(A, B, closed=1285.05 mm)"
+    text = with_units(machine.plan, "outer", "LinkMass('O B', mass=700, at=(2.0, -0.015))")
     assert text == "LinkMass('O B', mass=700 kg, at=(2000, -15) mm)"
     assert rows["far"] == "LoadCase('far', scale={'forks.load': 0.3666667})"
     assert "NW=0.29" in rows["forks"] and "WN=" not in rows["forks"]

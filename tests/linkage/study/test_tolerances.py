@@ -443,6 +443,9 @@ def test_a_picture_of_bands_shows_what_was_found():
     assert_allclose(lines["nominal"], band.nominal / kN)
     assert any(np.allclose(line.get_ydata(), 65.0) for line in force.lines)
     assert_allclose({line.get_label(): line.get_ydata() for line in tilt.lines}["nominal"], 0.0)
+    plain = monte_carlo(ThreePointHitch(), [drive_force()], {"OB": 2 * mm}, count=16, S=S)
+    far = monte_carlo(ThreePointHitch(), [drive_force()], {"OB": 2 * mm}, count=16, subject_to=[most(drive_force()) <= 900 * kN], S=S)
+    assert plot_bands(far).axes[0].get_ylim() == plot_bands(plain).axes[0].get_ylim()  # a limit that is not in the panel takes no room
 
 
 def test_a_picture_of_a_tornado_has_the_longest_bar_at_the_top():

@@ -8,7 +8,7 @@ from math import dist, hypot, inf
 from typing import Any
 
 from ..errors import ensure, unknown
-from ..surroundings import dxf_entities
+from ..surroundings import dxf_entities, visible
 from .found import FoundDrive, FoundMachine
 from .machine_sketch import Place, line_angle
 
@@ -16,7 +16,7 @@ ROLES = "pins", "links", "ground", "slides", "crank", "cylinder"
 """What a layer may be of, and by default its name."""
 OWN = {"bodies", "centre_lines", "pins"}
 """Layers of the drawings that `export` writes."""
-METRES = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0}
+METRES = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0, 7: 1e3, 8: 2.54e-8, 9: 2.54e-5, 10: 0.9144, 13: 1e-6, 14: 0.1}
 """The unit of a drawing by the number in its head [m]."""
 MEETS = 1e-6
 """A line ends at a pin, or passes through it, where it comes nearer to it than so much of the size, or than the pin's radius."""
@@ -28,8 +28,8 @@ def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]
     """Read the model space of a drawing; `layers` says by role which layers are meant, such as pins=["Bolts"]."""
     others = [role for role in layers if role not in ROLES]
     ensure(not others, f"{found.file}: --layer {', '.join(others)}: a layer is of {', '.join(ROLES)}.")
-    drawing, entities = dxf_entities(path)
-    there = {str(each.dxf.layer).lower(): str(each.dxf.layer) for each in entities}
+    drawing, every = dxf_entities(path)
+    there = {str(each.dxf.layer).lower(): str(each.dxf.layer) for each in every}
     for role, names in layers.items():
         for name in names:
             if name.lower() not in there:
@@ -37,6 +37,9 @@ def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]
     own = "it is a true-size drawing of this package, whose bodies are outlines; import the machine's own file"
     found.ensure("links" in layers or not there.keys() >= OWN, f"{own}, or the centre lines as links, --layer links=centre_lines.")
     found.unit = METRES.get(int(drawing.header.get("$INSUNITS", 0)))
+    entities = [*visible(drawing, every, [name for names in layers.values() for name in names])]
+    if len(entities) < len(every):
+        found.left_out.append(f"what the drawing hides, {len(every) - len(entities)} of {len(every)} entities")
     DrawingReader(found, entities, {role: [each.lower() for each in layers.get(role, (role,))] for role in ROLES}).read()
 
 
@@ -61,12 +64,13 @@ class DrawingReader:
         ground = [*self.entities_on(("CIRCLE",), "ground")]
         hatches = [corners_of(each) for each in self.entities_on(("HATCH",), *ROLES, "")]
         words = []
-        for each in self.entities_on(("TEXT", "MTEXT"), *ROLES, ""):
-            text = str(each.dxf.text if each.dxftype() == "TEXT" else each.plain_text()).strip()
+        for each in self.entities_on(("TEXT", "ATTRIB", "MTEXT"), *ROLES, ""):
+            text = str(each.plain_text()).strip()
             if text and len(text) <= 20:  # else it is no name
                 words.append((text, each))
         for circle in (*circles, *ground):
-            place, radius = (float(circle.dxf.center.x), float(circle.dxf.center.y)), float(circle.dxf.radius)
+            x, y, _ = map(float, circle.ocs().to_wcs(circle.dxf.center))
+            place, radius = (x, y), float(circle.dxf.radius)
             if any(dist(place, centre) <= radius for centre, _ in self.pins.values()):
                 continue  # a pin and its washer
             far, word = min(((way_to(each, word, place), word) for word, each in words), default=(0.0, ""))
@@ -76,13 +80,18 @@ class DrawingReader:
             self.pins[key] = place, radius
         self.found.ensure(self.pins, "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
         lines = ("LINE", "LWPOLYLINE", "POLYLINE")
+        bodies: list[list[str]] = []
         for each in [*self.entities_on(lines, "links")] or [*self.entities_on(lines, "")]:
             keys = self.met(corners_of(each))
             if len(keys) > 1:
-                self.found.add_link("", keys)
+                bodies.append(keys)
             else:
                 what = f"a {each.dxftype().lower()} of the layer {each.dxf.layer} with {len(keys)} pins"
                 self.found.left_out.append(f"{what}{self.loose_ends(each)}")
+        for place, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
+            others = (other for at, other in enumerate(bodies) if {*keys} < {*other} or (at < place and {*keys} == {*other}))
+            if next(others, None) is None:
+                self.found.add_link("", keys)
         for each in self.entities_on(("LINE",), "slides"):
             P, Q = corners_of(each)
             keys = [key for key in self.met([P, Q]) if not self.found.points[key].fixed]
@@ -99,13 +108,15 @@ class DrawingReader:
                     self.found.left_out.append(f"{what}{self.loose_ends(each)}")
 
     def met(self, corners: Sequence[Place]) -> list[str]:
-        """Return the pins that a line meets, or that a closed outline surrounds."""
+        """Return the pins that a line meets, or that a closed outline surrounds; a line may end at a pin's circle, too."""
         limit = MEETS * self.found.size
         closed = len(corners) > 3 and dist(corners[0], corners[-1]) <= limit
+        ends = [] if closed else [*corners[:1], *corners[-1:]]
         return [
             key
             for key, (place, radius) in self.pins.items()
             if any(distance_to(place, P, Q) <= max(limit, 0.5 * radius) for P, Q in pairwise(corners))
+            or any(dist(place, end) <= radius + limit for end in ends)
             or (closed and surrounds(place, corners))
         ]
 
@@ -144,11 +155,12 @@ def corners_of(entity: Any) -> list[Place]:
 
 
 def way_to(entity: Any, word: str, place: tuple[float, float]) -> float:
-    """Return how far a place lies from a text, taken as level, on its line or, of several lines, below its insertion."""
-    is_plain = entity.dxftype() == "TEXT"
-    high = float(entity.dxf.height if is_plain else entity.dxf.char_height)
-    x, y = float(entity.dxf.insert.x), float(entity.dxf.insert.y) - (0.0 if is_plain else high)
-    return dist(place, (min(max(place[0], x), x + 0.7 * high * len(word)), min(max(place[1], y), y + high)))
+    """Return how far a place lies from a text, however turned or mirrored: on its line or, of several lines, below its insertion."""
+    has_lines = entity.dxftype() == "MTEXT"
+    high = float(entity.dxf.char_height if has_lines else entity.dxf.height)
+    from_there = (entity.ocs().from_wcs((*place, 0.0)) - entity.dxf.insert).rotate_deg(-entity.dxf.rotation)
+    x, y = float(from_there.x), float(from_there.y) + (high if has_lines else 0.0)
+    return dist((x, y), (min(max(x, 0.0), 0.7 * high * len(word)), min(max(y, 0.0), high)))
 
 
 def distance_to(place: Place, P: Place, Q: Place) -> float:

@@ -7,6 +7,6 @@ from .outline import DxfOutline as DxfOutline
 from .outline import ImageOutline as ImageOutline
 from .outline import LineOutline as LineOutline
 from .outline import Outline as Outline
-from .outline import dxf_entities, numbers_at
+from .outline import dxf_entities, numbers_at, visible
 
 declare_public(globals())

@@ -462,10 +462,11 @@ def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.floa
 
     Errors are those of `dxf_entities`; DefinitionError where no line is on the layers named.
     """
-    _, every = dxf_entities(path)
+    drawing, every = dxf_entities(path)
     from ezdxf import path as curves
 
-    entities = [each for each in every if not layers or each.dxf.layer in layers]
+    named = [each.lower() for each in layers]
+    entities = [each for each in visible(drawing, every, layers) if not layers or each.dxf.layer.lower() in named]
     paths = list(drawable(entities, curves, path))
     distance = 1e-3 * span_of(paths, path)  # no farther from curves; up to one corner more than can be drawn
     corners = ([(each.x, each.y) for each in islice(one.flattening(distance), MOST + 1)] for one in paths)
@@ -476,6 +477,12 @@ def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.floa
     count = sum(map(len, found))
     ensure(count <= MOST, f"{path}: {count} corners are more than a picture shows, {MOST}; name the layers to take.")
     return found
+
+
+def visible(drawing: Any, entities: Sequence[Any], named: Sequence[str] = ()) -> Iterator[Any]:
+    """Yield those entities of a drawing that it does not hide, by themselves or with their layers; layers that are named show."""
+    hidden = {str(each.dxf.name).lower() for each in drawing.layers if each.is_off() or each.is_frozen()} - {each.lower() for each in named}
+    yield from (each for each in entities if not each.dxf.invisible and str(each.dxf.layer).lower() not in hidden)
 
 
 def unblocked(space: Any, path: str, around: tuple[str, ...] = ()) -> Iterator[Any]:
@@ -492,7 +499,12 @@ def unblocked(space: Any, path: str, around: tuple[str, ...] = ()) -> Iterator[A
             raise FileError(f"{path}: the block {name} inserts itself ({' > '.join([*around, name])}); mend the drawing.")
         if len(around) == DEEP:
             raise FileError(f"{path}: blocks stand in blocks more than {DEEP} deep, {' > '.join(around[:3])} > ...; explode some of them.")
-        yield from unblocked(each.virtual_entities(), path, (*around, name))
+        yield from each.attribs
+        for one in each.multi_insert() if each.mcount > 1 else (each,):
+            for entity in unblocked(one.virtual_entities(), path, (*around, name)):
+                if entity.dxf.layer == "0":  # in a block that says: on the layer of what inserts it
+                    entity.dxf.layer = each.dxf.layer
+                yield entity
 
 
 def drawable(entities: Sequence[Any], curves: Any, path: str) -> Iterator[Any]:

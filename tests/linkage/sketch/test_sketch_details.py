@@ -10,7 +10,7 @@ from linkage import DefinitionError, FileError, driving_force, export, pin_force
 from linkage.cli import main
 from linkage.sketch import MachineSketch, SketchDrive, is_foreign, read_sketch, sketch_of, sketch_text
 from tests import shipped
-from tests.for_all import first_daily
+from tests.for_all import first_daily, for_all
 from tests.linkage.sketch import emit
 from tests.linkage.sketch.plans import BY_NAME
 from tests.linkage.sketch.test_sketch_files import compare
@@ -312,6 +312,58 @@ def test_layers_of_a_drawing_are_named(tmp_path):
             read_sketch(path, layers={**layers, role: ["notes", "Bolt"]})
     with pytest.raises(DefinitionError, match="only a drawing"):
         read_sketch(put(tmp_path, "a.csv", emit.csv(BY_NAME["Rocker"])), layers=layers)
+
+
+def cad_drawing(how):
+    """Return a rocker O A B C drawn in one of the ways of CAD: mirrored blocks, circles seen from behind, trimmed and doubled lines."""
+    import ezdxf
+
+    places = dict(O=(0.0, 0.0), A=(40.0, 15.0), B=(150.0, 110.0), C=(160.0, 0.0))
+    document = ezdxf.new(units=14 if how == "decimetres" else 4)
+    space = document.modelspace()
+    drawn = document.blocks.new("M") if how in ("mirrored", "turned") else space
+    pin = document.blocks.new("PIN")
+    pin.add_circle((0, 0), 4)
+    pin.add_attdef("NAME", (3, 3), dxfattribs={"height": 2.5})
+    for name, (x, y) in places.items():
+        layer = {"layer": "Ground" if name in "OC" else "0"}
+        if how == "blocks":
+            space.add_blockref("PIN", (x, y), dxfattribs=layer).add_auto_attribs({"NAME": name})
+            continue
+        sense = -1 if how == "from behind" else 1
+        drawn.add_circle((sense * x, y), 4, dxfattribs={**layer, "extrusion": (0, 0, sense)})
+        text = {"insert": (x - 6, y - 14), "rotation": 90, "height": 6} if how == "upright" else {"insert": (x, y)}
+        drawn.add_text(name, dxfattribs=text)
+    for ends, layer in (("OA", "CRANK"), ("AB", "0"), ("BC", "0"), *([("BA", "0")] if how == "doubled" else [])):
+        P, Q = (np.array(places[each]) for each in ends)
+        cut = 4.0 * (Q - P) / np.linalg.norm(Q - P) if how == "trimmed" else 0.0
+        drawn.add_line(P + cut, Q - cut, dxfattribs={"layer": layer})
+    if how in ("mirrored", "turned"):
+        space.add_blockref("M", (7, 9), dxfattribs={"xscale": -1} if how == "mirrored" else {"rotation": 30, "xscale": 2, "yscale": 2})
+    if how == "hidden":
+        document.layers.add("help").off()
+        space.add_line(places["A"], places["C"], dxfattribs={"layer": "help"})
+        space.add_line(places["O"], places["B"], dxfattribs={"invisible": 1})
+    return document, places
+
+
+WAYS = "plain", "mirrored", "turned", "from behind", "blocks", "upright", "doubled", "trimmed", "hidden", "decimetres"
+
+
+@for_all("how", WAYS)
+def test_a_drawing_gives_one_machine_however_cad_writes_it(how, tmp_path):
+    document, places = cad_drawing(how)
+    document.saveas(tmp_path / "m.dxf")
+    sketch = read_sketch(tmp_path / "m.dxf")
+    assert {*map(frozenset, sketch.links.values())} == {*map(frozenset, ("OA", "AB", "BC"))} and len(sketch.links) == 3
+    assert {*sketch.fixed} == {"O", "C"} and sketch.drives["phi"].ends == ("O", "A")
+    found = {name: complex(*sketch.points[name]) for name in places}
+    one = {"decimetres": 0.1, "turned": 2e-3}.get(how, 1e-3)
+    for P, Q in ("OA", "AB", "BC", "OC", "OB"):
+        assert abs(found[Q] - found[P]) == pytest.approx(one * np.hypot(*np.subtract(places[Q], places[P])), rel=1e-12)
+    turn = ((found["C"] - found["O"]).conjugate() * (found["B"] - found["O"])).imag
+    assert turn < 0.0 if how == "mirrored" else turn > 0.0
+    assert any("hides, 2 of 13 entities" in note for note in sketch.notes) == (how == "hidden")
 
 
 def test_a_drawing_of_this_package_is_told_from_a_machine(tmp_path):

@@ -7,6 +7,7 @@ import json
 import os
 import re
 import tomllib
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -227,31 +228,46 @@ DELIMITERS = (";", "\t", ",")
 def csv_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows of a CSV file with their lines, as `text_rows` does those of its text."""
     try:
-        text = read(path, MOST_BYTES + 1).decode("utf-8-sig")
+        raw = read(path, MOST_BYTES + 1)
     except FileError as error:
         raise DefinitionError(str(error)) from None
+    ensure(len(raw) <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
+    yield from text_rows(path.name, text_of(raw))
+
+
+def text_of(raw: bytes) -> str:
+    """Return the text in some bytes: in UTF-16 where its mark begins them, else in UTF-8, else in the letters of Windows."""
+    try:
+        return raw.decode("utf-16" if raw[:2] in (BOM_UTF16_LE, BOM_UTF16_BE) else "utf-8-sig")
     except UnicodeDecodeError:
-        raise DefinitionError(f"{path.name} is no text in UTF-8; save it as CSV UTF-8.") from None
-    ensure(len(text) <= MOST_BYTES, f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB; give fewer points.")
-    yield from text_rows(path.name, text)
+        return raw.decode("cp1252", "replace")
 
 
 def delimiter_of(text: str) -> str:
-    """Return the delimiter of a table's cells, by its first row."""
+    """Return the delimiter of a table's cells, by its first row, or as a first line "sep=;" says it."""
     first = next((line for line in text.splitlines() if line.strip() and not line.startswith("#")), "")
-    unquoted = re.sub(r'"[^"]*"', "", first)
+    said = re.fullmatch(r"sep=(.)\s*", first)
+    unquoted = said[1] if said else re.sub(r'"[^"]*"', "", first)
     return next((each for each in DELIMITERS if each in unquoted), ",")
 
 
 def text_rows(name: str, text: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows of a table with their lines, without empty ones and those that begin with #; decimal commas as points."""
-    delimiter = delimiter_of(text)
-    reader = csv.reader(StringIO(text), delimiter=delimiter, skipinitialspace=True)
+    """Yield the rows of a table with their lines, without empty ones and those that begin with # or sep=; decimal commas as points.
+
+    Empty cells beyond the first row's last are none; DefinitionError for others.
+    """
+    delimiter, width = delimiter_of(text), 0
+    reader = csv.reader(StringIO(text.replace("\u2212", "-")), delimiter=delimiter, skipinitialspace=True)
     try:
         for row in reader:
             cells = [cell.strip() for cell in row]
-            if not any(cells) or cells[0].startswith("#"):
+            if not any(cells) or cells[0].startswith(("#", "sep=")):
                 continue
+            width = width or max(place for place, cell in enumerate(cells, 1) if cell)
+            while len(cells) > width and not cells[-1]:
+                cells.pop()
+            many = f"{name}, line {reader.line_num}: {len(cells)} cells stand under {width} headings"
+            ensure(len(cells) <= width, f"{many}; texts with a comma stand in quotes, and beside numbers as 1,5 a semicolon parts cells.")
             yield reader.line_num, [re.sub(r"^([-+]?\d*),(\d+)$", r"\1.\2", cell) for cell in cells] if delimiter != "," else cells
     except csv.Error as error:
         raise DefinitionError(f"{name}, line {reader.line_num}: it cannot be read as a table of rows: {error}.") from None

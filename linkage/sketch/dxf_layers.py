@@ -88,9 +88,8 @@ class DrawingReader:
             else:
                 what = f"a {each.dxftype().lower()} of the layer {each.dxf.layer} with {len(keys)} pins"
                 self.found.left_out.append(f"{what}{self.loose_ends(each)}")
-        for place, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
-            others = (other for at, other in enumerate(bodies) if {*keys} < {*other} or (at < place and {*keys} == {*other}))
-            if next(others, None) is None:
+        for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
+            if not any({*keys} < {*other} for other in bodies) and not any({*keys} == {*other} for other in bodies[:number]):
                 self.found.add_link("", keys)
         for each in self.entities_on(("LINE",), "slides"):
             P, Q = corners_of(each)

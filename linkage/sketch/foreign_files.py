@@ -11,7 +11,7 @@ from types import MappingProxyType
 
 from ..disk import Place, read
 from ..errors import DefinitionError, FileError, cited, ensure, unknown
-from ..files.source import FILE_BYTES, decoded
+from ..files.source import FILE_BYTES, decoded, text_of
 from ..quantities import joined_names
 from .board_json import ADDRESS, board_json, read_board
 from .dxf_layers import read_dxf
@@ -128,10 +128,7 @@ def content_of(file: Place, layers: Mapping[str, Sequence[str]]) -> tuple[FoundM
         read_json(found, decoded(path.name, raw, True).data)
         return found, found.board_sketch.name if found.board_sketch else title
     found.ensure(len(raw) <= FILE_BYTES, f"the file is larger than {FILE_BYTES / 1e6:g} MB; a machine is a few kB.")
-    try:
-        content = raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        content = raw.decode("cp1252", "replace")  # the letters of Windows
+    content = text_of(raw)
     found.ensure(content.strip(), "the file is empty.")
     found.ensure("\0" not in content, "the file is no text.")
     readers: dict[str, Callable[[FoundMachine, str], None]] = {".csv": read_points_csv, ".linkage2": read_linkage_xml}

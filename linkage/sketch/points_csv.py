@@ -42,7 +42,6 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
     later: list[tuple[str, str, list[str], str]] = []
     for number, row in rows[1:]:
         found.part = f"line {number}"
-        found.ensure(len(row) <= len(COLUMNS), f"{len(row)} cells are too many; names with a comma stand in quotes.")
         kind, name, x, y, what = [*row, *[""] * (len(COLUMNS) - len(row))]
         if kind.lower() == "point":
             found.ensure(name, "the point has no name.")
@@ -51,7 +50,7 @@ def read_points_csv(found: FoundMachine, text: str) -> None:
             found.add_point(name, name, x, y, what.lower() == "fixed")
         else:
             found.ensure(kind.lower() in ROWS, f"{kind or 'nothing'} is none of point, {', '.join(ROWS)}.")
-            later.append((kind.lower(), name, what.split(), found.part))
+            later.append((kind.lower(), name, re.split(r"[\s,;]+", what.strip(" ,;")), found.part))
     for kind, name, words, found.part in later:  # points first, in whatever order the rows are
         ROWS[kind](found, name, words)
     found.part = ""
@@ -73,11 +72,12 @@ def read_slide(found: FoundMachine, name: str, words: list[str]) -> None:
 def read_drive(kind: str, found: FoundMachine, name: str, words: list[str]) -> None:
     """Read the row of a crank or a cylinder: its ends, then how far it goes from the drawn pose, forwards, or back and forwards."""
     measures, example = ("angle", "O A 360deg") if kind == "crank" else ("length", "A B 250mm")
-    found.ensure(len(words) in (2, 3, 4), f"a {kind} names its two ends and how far it goes, such as `{example}`.")
+    amounts = re.split(r"\s+(?=[-+.\d])", " ".join(words[2:])) if words[2:] else []  # "300 mm" is one
+    found.ensure(len(words) > 1 and len(amounts) < 3, f"a {kind} names its two ends and how far it goes, such as `{example}`.")
     P, Q = (found.known(word, f"a {kind}") for word in words[:2])
     found.ensure(P != Q and not {*words[2:]} & found.points.keys(), f"a {kind} has two ends, such as `{example}`.")
     limits: list[float | str] = []
-    for word in ["0", *words[2:]] if len(words) < 4 else words[2:]:
+    for word in ["0", *amounts] if len(amounts) < 2 else amounts:
         value = value_in(found, word, measures)  # a length with a unit stays a text, one without has that of the table
         limits.append(value if measures == "angle" or PLAIN.fullmatch(word) else word)
     back, *reach = limits

@@ -366,6 +366,39 @@ def test_a_drawing_gives_one_machine_however_cad_writes_it(how, tmp_path):
     assert any("hides, 2 of 13 entities" in note for note in sketch.notes) == (how == "hidden")
 
 
+TABLES = {
+    "semicolons": lambda text: text.replace(",", ";").replace(".5", ",5"),
+    "a line that says sep=": lambda text: "sep=;\n" + text.replace(",", ";"),
+    "tabs, as Unicode text": lambda text: text.replace(",", "\t").encode("utf-16"),
+    "letters of Windows": lambda text: text.replace("flap", "ü").encode("cp1252"),
+    "empty columns behind": lambda text: text.replace("\n", ",,,\n"),
+    "a minus sign of print": lambda text: text.replace("-1020.5", "\u22121020.5"),
+    "commas in a list": lambda text: text.replace("O B T", '"O, B, T"'),
+    "a space before the unit": lambda text: text.replace("300mm", "300 mm"),
+}
+
+
+@for_all("how", TABLES)
+def test_a_table_gives_one_machine_however_a_spreadsheet_writes_it(how, tmp_path):
+    text = "kind,name,x [mm],y [mm],what\npoint,O,0,0,fixed\npoint,A,50,600,fixed\npoint,B,420,-1020.5,pin\npoint,T,900,30,pin\n"
+    text += "link,flap,,,O B T\ncylinder,S,,,A B -0mm 300mm\n"
+    plain = read_sketch(put(tmp_path, "plain.csv", text))
+    written = TABLES[how](text)
+    (tmp_path / "t.csv").write_bytes(written if isinstance(written, bytes) else written.encode())
+    found = read_sketch(tmp_path / "t.csv")
+    assert (found.points, found.fixed, [*found.links.values()]) == (plain.points, plain.fixed, [*plain.links.values()])
+    assert found.drives == plain.drives and found.points["B"] == (0.42, -1.0205)
+
+
+def test_a_decimal_comma_does_not_shift_the_columns_of_a_table(tmp_path):
+    from linkage.files.source import measured_columns
+
+    path = tmp_path / "cycle.csv"
+    path.write_text("a [mm],b [mm]\n10,5,20,5\n")
+    with pytest.raises(DefinitionError, match=r"cycle\.csv, line 2: 4 cells stand under 2 headings; texts with a comma stand in quotes"):
+        measured_columns(path, "csv", lambda name: ("length",))
+
+
 def test_a_drawing_of_this_package_is_told_from_a_machine(tmp_path):
     drawing = export(shipped.MACHINES["four_bar"](), tmp_path / "bar.dxf")
     with pytest.raises(FileError, match="true-size drawing of this package, whose bodies are outlines; import the machine's own file"):

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..plan import Plan, rate_name
 from ..program import FloatArray, Kernel, Node
+from .dead_points import NOWHERE
 from .grid import MotionLike
 from .strokes import rates_of
 
@@ -33,7 +34,7 @@ def point_by_time(
     index = 2 * plan.moving.index(point)
     found = known[1][index : index + 2]
     found = found if motion.reached.all() else np.where(motion.reached, found, np.nan)
-    return motion._finite(found, np.zeros(motion.shape, bool), f"The {what} of {point}")
+    return motion._finite(found, NOWHERE, f"The {what} of {point}")
 
 
 def stays(known: object, given: object) -> bool:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import SingularError, SingularWarning, warn
+from ..frozen import read_only
 from ..plan import ArrayReading, Mask, Plan, name_or_pins, opening
 from ..program import FloatArray, Iterated
 from ..steps import Point
@@ -36,6 +37,8 @@ FAR = 100.0
 """The condition below which no loop and no direction is to blame for digits that are lost."""
 LEAST = 1e-3
 """Of a result's natural size: a value that is smaller counts as so large where its relative error is told."""
+NOWHERE: Mask = read_only(np.zeros((), bool))
+"""The mask of no pose, whatever the shape of the poses."""
 
 
 def iterated(plan: Plan) -> tuple[Iterated, ...]:

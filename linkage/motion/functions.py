@@ -42,7 +42,7 @@ def evaluate(
     requests = as_they_run(requests, accelerations is not None) if moving else requests
     if out is None and unreachable in ("raise", "nan"):
         with suppress(UntracedError):
-            found = at_one_pose(plan, designs, strokes, requests, moving) if way == QUICKEST else None
+            found = at_one_pose(plan, designs, strokes, requests, moving) if way is QUICKEST else None
             if found is None:
                 found = at_few_poses(plan, designs, strokes, requests, way, moving)
             if found is not None:

@@ -97,7 +97,9 @@ class Grid:
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), poses (n,) or (m, n)."""
-        return {**self.flat_designs, **self._flat_of(self._of_poses), **self.solved.inputs}
+        designs = self.designs if self._is_plain else self.flat_designs
+        inputs = {**designs, **self._flat_of(self._of_poses)}
+        return {**inputs, **self.solved.inputs} if self.plan.solved else inputs
 
     @cached_property
     def solved(self) -> GroupSolution:

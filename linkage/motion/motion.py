@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, reduce
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast
 
@@ -24,7 +24,7 @@ from ..steps import Arrow, Point
 from ..vectors import Numbers, Vec
 from . import dead_points, stroke_search
 from .by_time import point_by_time
-from .dead_points import Conditioning
+from .dead_points import NOWHERE, Conditioning
 from .evaluation import BulkProgram, Evaluation, examined, guard_masks, other_law_error
 from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
 from .instants import Instants
@@ -106,7 +106,6 @@ class Motion(Shown):
         self._values: dict[Hashable, FloatArray] = {}
         self._kept: dict[Hashable, Any] = {}
         self._watched: dict[Hashable, bool] = {}
-        self.reached: Mask = np.ones(self.shape, bool)
         self._places, is_clear = self._grid.run(plan.kernel(plan.moving, guarded=True))
         self._is_near_singular, self._is_reached = not is_clear, True
         has_gaps = unreachable == "nan" and any([np.isnan(value).any() for value in self._grid.strokes.values()])
@@ -116,13 +115,18 @@ class Motion(Shown):
             lost = self._refused_near(places_of(plan.moving), f"The places of {plan.title}", are_places=True)
             if lost.any():
                 self._places = np.where(lost, np.nan, self._places)
-                self.reached &= ~lost
+                self.reached = read_only(np.asarray(self.reached & ~lost))
                 self._is_reached = False
-        self._places.flags.writeable = self.reached.flags.writeable = False
+        self._places.flags.writeable = False
         if unreachable == "raise" and stroke_search.is_watched(self):
             stroke_search.refuse_interrupted(self)
         if unreachable == "raise" and plan.followed and len(self.strokes) > 1:
             self._refuse_parted()
+
+    @cached_property
+    def reached(self) -> Mask:
+        """The mask of the poses that are reached, shape (...)."""
+        return read_only(np.ones(self.shape, bool))
 
     @property
     def designs(self) -> FrozenDict[str, Any]:
@@ -503,7 +507,7 @@ class Motion(Shown):
         words = f"The ratio of {what.name}"
         refused = self._refused(what, words)
         found = self._evaluated(what) if method == "exact" else self._numeric(what, None if step is None else float(step))
-        found = np.where(refused, np.nan, found) if refused.any() else found
+        found = found if refused is NOWHERE else np.where(refused, np.nan, found)
         return self._finite(found, refused, f"{words} by {stroke}")
 
     def velocity(self, target: Reference, rates: Mapping[str, object] | None = None) -> FloatArray:
@@ -577,7 +581,7 @@ class Motion(Shown):
         member = self._member(target)
         along = [tuple(sorted((first, second))) for first in given for second in given]
         masks = [self._refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
-        refused = np.any(masks, axis=0)
+        refused = reduce(np.logical_or, masks, NOWHERE)
         total = self._along(target, driven)
         for first, u in given.items():
             for second, v in given.items():
@@ -753,7 +757,7 @@ class Motion(Shown):
         `switches`, numbers with words for them, is above zero.
         """
         (values,), look = Evaluation(self._grid, (looked,)).evaluate(among=self.reached.reshape(self._grid.size))
-        excused, broken = np.zeros(self.shape, bool), False
+        excused, broken = NOWHERE, False
         if look is not None:
             refused, doubtful, empty = (mask.reshape(self.shape) for mask in (look.refused, look.doubtful, look.empty))
             self._report(words, refused, doubtful, lambda mask: self._near(looked, mask))
@@ -863,7 +867,9 @@ class Motion(Shown):
             place = reading.at(name)
             for axis, part in enumerate((place.x, place.y)):
                 self._places[2 * index + axis, ...][failed] = np.where(lost, np.nan, part)
-        self.reached[failed] = ~lost
+        reached = np.ones(self.shape, bool)
+        reached[failed] = ~lost
+        self.reached = read_only(reached)
         self._is_reached = not lost.any()
         if self.unreachable == "raise" and lost.any():
             raise stroke_search.out_of_reach(self)
@@ -975,7 +981,7 @@ class Motion(Shown):
         if isinstance(what, Value) and not isinstance(what.member, Point):  # of points it is known, of other values told with these
             self._evaluated(what)
             near = self._watched[what.key]
-        return self._refused_near(what, words) if near else np.zeros(self.shape, bool)
+        return self._refused_near(what, words) if near else NOWHERE
 
     def _refused_near(self, what: Request, words: str, are_places: bool = False) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked."""

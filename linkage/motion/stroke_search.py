@@ -360,7 +360,7 @@ def roots_between(rate: Curve, low: float, high: float) -> list[float]:
 
 def is_watched(motion: MotionLike) -> bool:
     """Return whether it is looked at between the poses: of one design along one stroke, from two poses on."""
-    return len(motion.strokes) == 1 and not motion._design_shape and motion.shape != () and motion.reached.size > 1
+    return len(motion.strokes) == 1 and not motion._design_shape and motion.shape != () and motion._grid.size[1] > 1
 
 
 def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:

@@ -15,6 +15,7 @@ from ..errors import DefinitionError, LawError, UntracedError, ensure, is_listed
 from ..language import said
 from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, LinkMass, Load, LoadCase, Push, Rate, Rates, StrokeRates, Weight
 from ..motion import Judge, Motion, OnePose, Request, SmoothPiece, require_motion
+from ..motion.dead_points import NOWHERE
 from ..motion.grid import MotionLike
 from ..motion.requests import NO_TRAIT, Combined, Trait, identity_of, situated, stroke_of
 from ..motion.strokes import checked_name, order_of
@@ -58,7 +59,7 @@ class TracedMotion(OnePose):
 
     def _refused(self, what: Request, words: str) -> Mask:
         """Return that no pose is refused: a program's poses are examined where its values are asked for."""
-        return np.zeros((), bool)
+        return NOWHERE
 
     # -- what several laws ask for ---------------------------------------------------------------------------
 

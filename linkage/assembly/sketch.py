@@ -322,14 +322,19 @@ def sketch_words(plan: Plan, designs: Mapping[str, Numbers]) -> list[str]:
     return found
 
 
+def guide_points(plan: Plan) -> set[str]:
+    """Return the points that only give a guide its direction, and those where guides cross."""
+    used = {name for member in plan.members.values() if not isinstance(member, Guide) for name in needs(member)}
+    return {name for guide in plan.of_kind(Guide).values() for name in needs(guide)} - used | plan.of_kind(GuideCross).keys()
+
+
 @np.errstate(all="ignore")
 def width_words(plan: Plan, designs: Mapping[str, Numbers]) -> str:
     """Return the width of a machine at its sketch where it is too large for one, and a remedy; else nothing.
 
     Points that only give a guide its direction, and those where guides cross, may be as far as they like.
     """
-    used = {name for member in plan.members.values() if not isinstance(member, Guide) for name in needs(member)}
-    far = {name for guide in plan.of_kind(Guide).values() for name in needs(guide)} - used | plan.of_kind(GuideCross).keys()
+    far = plan.made("points of guides alone", lambda _: guide_points(plan))
     try:
         inputs = {**inputs_at(plan, plan.sketch_strokes), **designs}
         reading = plan.read({name: np.asarray(value) for name, value in inputs.items()})  # of arrays, so that nothing is divided by zero

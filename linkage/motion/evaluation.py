@@ -168,7 +168,8 @@ class Evaluation:
             if bad.any():
                 shaped = {name: np.asarray(value, float) for name, value in inputs.items()}
                 own = {name for name, value in shaped.items() if value.ndim == 1 and name in plan.table.entries}  # one a design
-                at_bad = {name: np.broadcast_to(value[:, None] if name in own else value, bad.shape)[bad] for name, value in shaped.items()}
+                full = {name: value[:, None] if name in own else value for name, value in shaped.items()}
+                at_bad = {name: np.broadcast_to(value, bad.shape)[bad] if value.ndim else value for name, value in full.items()}
                 here.broken[...] = broken & bad
                 self._put_right(block, bad, at_bad, near[:, bad], here)
             for number, rows in enumerate(self.program.parts):
@@ -177,18 +178,18 @@ class Evaluation:
 
     @np.errstate(all="ignore")
     def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, FloatArray], near: Mask, look: CloseLook) -> None:
-        """Fill the `bad` poses of a block, from their paired inputs; `near`: for each request, where it has to be looked at closely."""
+        """Fill the `bad` poses of a block, from their inputs, (n,) or one for all; `near`: where each request is looked at closely."""
         plan, lost = self.grid.plan, ~np.isfinite(block[self.rows][:, bad]).all(axis=0)
         lost |= negative(plan, plan.reading(inputs), lost.shape)
         if lost.any():  # where something that the requests are built from cannot be placed
             names, failed = members_behind(plan, self.counting.values()), np.zeros(int(lost.sum()), bool)
-            for name, mask in failures(plan, plan.read({name: value[lost] for name, value in inputs.items()}), failed.shape):
+            for name, mask in failures(plan, plan.read(some_inputs(inputs, lost)), failed.shape):
                 if name in names:
                     failed |= mask
             lost[lost] = failed
         refused, doubtful = near & ~lost, np.zeros(near.shape, bool)
-        here, among = refused.any(axis=0), np.flatnonzero(refused.any(axis=1)).tolist()
-        at = {name: value[here] for name, value in inputs.items()}
+        here, among = np.asarray(refused.any(axis=0)), np.flatnonzero(refused.any(axis=1)).tolist()
+        at = some_inputs(inputs, here)
         for k, found in zip(among, examined(plan, self.requests, at, plan.read(at), among) if among else (), strict=True):
             doubtful[k, here], refused[k, here] = refused[k, here] & found.doubtful, refused[k, here] & found.refused
             if doubtful[k].any():
@@ -203,8 +204,7 @@ class Evaluation:
             values, without = block[rows, bad], lost | refused[number]
             at_end = ~without & ~np.isfinite(values).all(axis=0)
             if not request.order and at_end.any():
-                at = {name: value[at_end] for name, value in inputs.items()}
-                values = to_rounding(values, at_end, self.program.kernel.plan.outputs[rows], at)
+                values = to_rounding(values, at_end, self.program.kernel.plan.outputs[rows], some_inputs(inputs, at_end))
             look.missing[number, bad] = without = without | ~np.isfinite(values).all(axis=0)
             block[rows, bad] = np.where(without, np.nan, values)
 
@@ -253,9 +253,16 @@ def grid_blocks(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slic
 
 def part_of_input(value: Any, band: slice, part: slice, of_design: bool) -> Any:
     """Return the part of a flat input that belongs to a part of the grid."""
+    if type(value) is float or np.size(value) == 1:
+        return value
     if np.ndim(value) == 2:
         return value[band if value.shape[0] > 1 else slice(None), part]
-    return value if np.ndim(value) == 0 or np.size(value) == 1 else value[band] if of_design else value[part]
+    return value[band] if of_design else value[part]
+
+
+def some_inputs(inputs: Mapping[str, FloatArray], mask: Mask) -> dict[str, FloatArray]:
+    """Return the inputs (n,) of some poses; one number that all have stays."""
+    return {name: value[mask] if value.ndim else value for name, value in inputs.items()}
 
 
 # Near singular poses.

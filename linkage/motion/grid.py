@@ -187,13 +187,14 @@ class MotionLike(Poses, Protocol):
     """A motion as limits, conditions and requests read it, which `Motion` itself imports; see `Motion`."""
 
     plan: Plan
-    reached: Mask
     _grid: Grid
     _design_shape: tuple[int, ...]
     _instants: Instants | None
     unreachable: str
     _kept: dict[Hashable, Any]
 
+    @property
+    def reached(self) -> Mask: ...
     @property
     def designs(self) -> FrozenDict[str, Any]: ...
     @property

@@ -160,7 +160,7 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
         found = assembly_verdicts(judge)
     else:
         if not fault:
-            judge.answers(verdict_questions(judge))
+            judge._once("verdict questions", lambda: judge.answers(verdict_questions(judge)))
         found, said_of = geometry_verdicts(judge), member_verdicts(judge.lost_allowed(), fault)
         is_assembled = not fault and all(found)
         for each in said_of:

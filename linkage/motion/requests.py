@@ -23,7 +23,7 @@ from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
 from ..pickling import object_of, picklable
 from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
-from ..quantities import TAKEN, Arithmetic, Member, Number, PoseCondition, Quantity, Reference, label, name_of, quantity, source_text
+from ..quantities import TAKEN, Arithmetic, Member, Number, PoseCondition, Quantity, Reference, label, name_of, needs, quantity, source_text
 from ..steps import Arrow, Point
 from .dead_points import LEAST, PLACES, PrecisionLeft
 from .grid import MotionLike
@@ -362,7 +362,8 @@ class Value(Request):
     def bound(self, plan: Plan) -> Value:
         along = tuple(stroke_of(plan, name) for name in self.along)
         if isinstance(self.target, Quantity) and not self.target.name:
-            plan.reaches(self.target)  # raises for a name in it that there is not
+            for name in needs(self.target):
+                plan.member(name)
             return Value(self.target, along)
         return Value(plan.members[checked_name("Name", self.target, plan.valued_members, plan.title)], along)
 

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from ..errors import DefinitionError, cited, is_listed, require_type
-from ..frozen import refuses_changes
+from ..frozen import FrozenDict, refuses_changes
 from ..language import heading_of, noted
 from ..loads import ForceElement, LoadCase
 from ..plan import Plan
@@ -158,14 +158,18 @@ def from_above(place: str) -> Any:
 
 def speakers(plan: Plan, kind: type[Kind]) -> dict[str, Kind]:
     """Return the members of a plan that show or judge themselves, `Tabled` or `HasVerdicts`, or the objects in their place, by name."""
-    found: dict[str, Kind] = {}
-    for name, member in plan.members.items():
-        speaker: object = member
-        if isinstance(member, ForceElement) and member.shown_by and not isinstance(member, kind):  # by a class above its own room
-            speaker = from_above(member.shown_by).of(member, plan)
-        if isinstance(speaker, kind):
-            found[name] = speaker
-    return found
+
+    def make(_: Plan) -> FrozenDict[str, Kind]:
+        found: dict[str, Kind] = {}
+        for name, member in plan.members.items():
+            speaker: object = member
+            if isinstance(member, ForceElement) and member.shown_by and not isinstance(member, kind):  # by a class above its own room
+                speaker = from_above(member.shown_by).of(member, plan)
+            if isinstance(speaker, kind):
+                found[name] = speaker
+        return FrozenDict(found)
+
+    return plan.made(("speakers", kind), make)
 
 
 class Tabled(Member):

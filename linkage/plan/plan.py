@@ -265,7 +265,7 @@ class Plan(Members, Shown):
         """The inputs that are found by iteration along the way from the sketch: those of groups, and references of angles."""
         return (*self.grouped, *self.followed)
 
-    @property
+    @cached_property
     def may_overflow(self) -> bool:
         """Whether a place may have no value where no guard tells: by arithmetic, or as an angle cannot be followed."""
         return super().may_overflow or bool(self.followed)

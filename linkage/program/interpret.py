@@ -117,9 +117,10 @@ class Scatter:
         """Return values and errors, both of the shape (outputs, n), for inputs as floats or (n,); NaN where there is no value."""
         every = {name: np.asarray(value, float) for name, value in inputs.items()}
         found = list[FloatArray]()
-        for first in range(0, max((each.size for each in every.values()), default=1), BLOCK):
+        count = max([each.size for each in every.values()], default=1)
+        for first in range(0, count, BLOCK):
             given: dict[str, Numbers] = {name: each[first : first + BLOCK] if each.size > 1 else each for name, each in every.items()}
-            n = max(map(np.size, given.values()), default=1)
+            n = min(BLOCK, count - first)
             for unknowns, steps in self._iterated:
                 entries = [np.broadcast_to(each, (RUNS + 1, n)) for each in steps.values(given)]
                 with np.errstate(all="ignore"):
@@ -157,7 +158,7 @@ class ShakenSteps:
         values: list[Scalar] = []
         with np.errstate(all="ignore"):
             for node, places, changes, ended in self._steps:
-                args = [values[place] for place in places]
+                args = [*map(values.__getitem__, places)]
                 if node.op == "sqrt":
                     args = [np.maximum(args[0], 0.0)]  # a dead point is reached to rounding
                 found = (OPERATIONS[node.op].array(*args) if args else given[node.value]) if node.op != "constant" else node.value

@@ -78,8 +78,7 @@ def real(value: object) -> FloatArray:
     """Return a value as a new array of floats, NaN where it is masked; raise ValueError for anything but real numbers."""
     if type(value) is float:
         return np.array(value)
-    is_plain = type(value) is np.ndarray
-    array = value if is_plain else np.asarray(float(value) if is_whole(value) and is_number(value) else unmasked(value))
+    array = value if type(value) is np.ndarray else np.asarray(float(value) if is_whole(value) and is_number(value) else unmasked(value))
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{value!r} is not a real number")
     return np.array(array, float)

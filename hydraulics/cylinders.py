@@ -292,6 +292,16 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             return np.asarray(np.where(sense[()] < 0.0, -size.pull_area, size.push_area))
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
+    def area_beside(self, motion: Poses, sense: Array, first: Self, way: int) -> Array:
+        members, size = motion.plan.members, self.sized(motion)
+        side = PISTON if way > 0 else ROD
+        lines = [line for line, each in lines_of(first, members, "held") if each.side == side]
+        if lines:  # what is joined to that side of it has the pressure, and nothing else has
+            own = (each for line in lines for each in line.chambers_of(self, members))
+            return reduce(np.add, (chamber_area(each, self, motion) for each in own), 0.0 * sense)
+        area = self.area_in(motion, sense)
+        return area if size.works == "both" else np.where(size.sense * sense < 0.0, 0.0, area)
+
     def closed_thrust(self, motion: AnyMotion, acting: Acting) -> Array | None:
         closed = lines_of(self, motion.plan.members, "closed")
         parts = [line.line_pressure(motion, acting) * chamber_area(chamber, self, motion) for line, chamber in closed]

@@ -434,6 +434,9 @@ class LiftingCylinder:
         if np.isnan(found.value) and found.ok is None:
             text = said("the load drives all the way: it is not limited by this cylinder{remedy}.", remedy=self.remedy_both())
             return Verdict("lifting", None, text, answer=found)
+        if np.isnan(found.value):
+            text = said("the load drives, or else {lost}: keep away from these.", lost=found.lost.sentence)
+            return Verdict("lifting", False, text, answer=found)
         if found.value < ENDLESS:
             text = said(
                 "at {pump} the force needed grows without bounds {where}: no cylinder lifts there; keep away from that pose.",

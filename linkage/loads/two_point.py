@@ -10,7 +10,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, TypeAlias, cast, get_args
+from typing import Any, ClassVar, Literal, Self, TypeAlias, cast, get_args
 
 import numpy as np
 
@@ -100,6 +100,10 @@ class TwoPoint(ForceElement):
     def area_in(self, motion: Poses, sense: Array) -> Array:
         """Return, of a holding member, its thrust at one unit of pressure [m2]; `sense` is 1 while it pushes and -1 while it pulls."""
         return sense
+
+    def area_beside(self, motion: Poses, sense: Array, first: Self, way: int) -> Array:
+        """Return the same where another member of its line pushes (`way` 1) or pulls (-1); `sense` drives the stroke as that does."""
+        return self.area_in(motion, sense)
 
     def area_written(self, written: Formulas) -> Array:
         """Return, of a holding member, its thrust at one unit of pressure [m2] as the equations of forces write it."""

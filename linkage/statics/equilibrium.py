@@ -244,13 +244,14 @@ class System:
         pushes = [wrench.force for bearer, each, wrench in self.borne if bearer == body and each.point in strut.far]
         return LinearForm(row, friction, -sum(((force * along).sum(axis=0) for force in pushes), self.poses.zeros()))
 
-    def known(self, way: int = 1) -> list[tuple[LinearForm, FloatArray]]:
+    def known(self, senses: Sequence[int] = ()) -> list[tuple[LinearForm, FloatArray]]:
         """Return the equations of the members' thrusts: those of a law with its value, those of one line with each other's areas.
 
-        `way` is 1 where the first cylinder of a line pushes, -1 where it pulls: it tells which side's area a cylinder works with.
+        `senses` are 1 where the first cylinder of a line pushes, as by default, -1 where it pulls: it tells which side's area works.
         """
         found = [(self.thrust(each), self.poses.flattened(each.known.thrust)) for each in self.structure.struts if each.known is not None]
-        for line in self.structure.holders.lines:
+        lines = self.structure.holders.lines
+        for line, way in zip(lines, senses or (1,) * len(lines), strict=True):
             if line.tie is not None:
                 continue
             struts = [each for each in self.structure.struts if each.line is line]

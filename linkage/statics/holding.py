@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial, reduce
 from itertools import permutations, product
+from operator import attrgetter
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -61,6 +62,11 @@ class Holders:
 
     lines: tuple[PressureLine, ...] = ()
     closed: tuple[PressureLine, ...] = ()
+
+    @property
+    def senses(self) -> tuple[tuple[int, ...], ...]:
+        """Whether the first cylinders of lines push (1) or pull (-1), in all ways that change shares; the last line's changes fastest."""
+        return tuple(product(*((1, -1) if line.changes_shares else (1,) for line in self.lines)))
 
     @property
     def every_line(self) -> tuple[PressureLine, ...]:
@@ -229,7 +235,10 @@ def check_run(motion: AnyMotion, tie: Tie, run: Reeving, stroke: str) -> None:
 
 
 def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Tie]) -> list[tuple[TwoPoint, ...]]:
-    """Return the cylinders that hold, those of one pressure line together; without those whose thrust a tie tells."""
+    """Return the cylinders that hold, those of one pressure line together; without those whose thrust a tie tells.
+
+    The first of a line works with both sides where one of them does, as its sign tells which side has the pressure.
+    """
     fed = [member for each in elements for member in each.feeds(plan.members)]
     fed += [share.member for tie in ties for share in tie.shares]
     free = [each for each in elements if each.holds and isinstance(each, TwoPoint) and not is_among(each, fed)]
@@ -239,7 +248,7 @@ def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Ti
         on_it = [line for line in lines if any(is_among(each, members) for each in line)]
         if len(on_it) > 1:
             lines = [line for line in lines if line not in on_it]
-            lines.append(tuple(each for line in on_it for each in line))
+            lines.append(tuple(sorted((each for line in on_it for each in line), key=attrgetter("works_both"), reverse=True)))
     return lines
 
 
@@ -376,7 +385,7 @@ def share_of(member: TwoPoint, lines: Sequence[PressureLine], shares: Sequence[S
 
 
 def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPoses, tuple[Levers, ...]]:
-    """Return the poses at which the cylinders hold, and their levers there: a second time where first cylinders pull.
+    """Return the poses at which the cylinders hold, and their levers there for each of the holders' `senses`.
 
     SingularError at the others unless NaN was asked for; `what` opens the sentence.
     """
@@ -386,40 +395,49 @@ def with_levers(poses: FlatPoses, holders: Holders, what: str) -> tuple[FlatPose
         for i, line in enumerate(lines):
             matrix[:, i, i] = line.steady
         return poses, (Levers(matrix, np.abs(matrix), tuple((one,) for _ in lines)),)
-    ways = (1, -1) if any(line.changes_shares for line in lines) else (1,)
     if not isinstance(poses.motion, Motion):
-        return poses, poses.motion._once(("levers", holders.every_line), partial(traced_levers, poses, holders, ways))
+        return poses, poses.motion._once(("levers", holders.every_line), partial(traced_levers, poses, holders))
     shared = "levers", holders.every_line, poses.good.tobytes()  # once for the same poses of a motion, for all loads and cylinders
-    found = tuple(poses.motion._once((*shared, way), partial(levers_of, poses, holders, way)) for way in ways)
+    found = tuple(poses.motion._once((*shared, way), partial(levers_of, poses, holders, way)) for way in holders.senses)
     if not lines:
         return poses, found
     names = [each.name or str(each) for line in lines for each in line.cylinders]
     whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"
-    cond = reduce(np.maximum, [each.nearness for each in found])
+    cond = nearness_of(holders, found)
     lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, what, f"{whose} still against the drive there"))
     if not lost.any():
         return poses, found
     left = poses.without(lost)
-    return left, tuple(levers_of(left, holders, way) for way in ways)
+    return left, tuple(levers_of(left, holders, way) for way in holders.senses)
 
 
-def traced_levers(poses: FlatPoses, holders: Holders, ways: Sequence[int]) -> tuple[Levers, ...]:
+def nearness_of(holders: Holders, found: Sequence[Levers]) -> FloatArray:
+    """Return how near any of the levers are to a singular pose, (n,); infinite where both sides of a line drive its stroke the same way."""
+    cond = reduce(np.maximum, [each.nearness for each in found])
+    for i, line in enumerate(holders.lines):
+        if line.changes_shares:
+            first, last = (numbers_of(each.matrix)[i][i] for each in (found[0], found[-1]))
+            cond = np.where(first * last < 0.0, np.inf, cond)
+    return cond
+
+
+def traced_levers(poses: FlatPoses, holders: Holders) -> tuple[Levers, ...]:
     """Return the levers of lines as numbers of a program, without a value where the cylinders do not hold."""
-    found = tuple(levers_of(poses, holders, way) for way in ways)
-    cond = reduce(np.maximum, [each.nearness for each in found]) if holders.lines else np.zeros(())
+    found = tuple(levers_of(poses, holders, way) for way in holders.senses)
+    cond = nearness_of(holders, found) if holders.lines else np.zeros(())
     if not is_traced(cond):
         return found
     kept = [elementwise(lambda lever: np.where(cond <= REFUSE, lever, np.nan), (each.matrix,)) for each in found]
     return tuple(replace(each, matrix=matrix) for each, matrix in zip(found, kept, strict=True))
 
 
-def levers_of(poses: FlatPoses, holders: Holders, way: int) -> Levers:
-    """Return the levers of lines whose first cylinders push (`way` 1) or pull (-1)."""
+def levers_of(poses: FlatPoses, holders: Holders, senses: Sequence[int]) -> Levers:
+    """Return the levers of lines whose first cylinders push (1) or pull (-1)."""
     lines = holders.lines
     count = len(lines)
     matrix, sizes, shares = poses.zeros(count, count), poses.zeros(count, count), []
     for i, line in enumerate(lines):
-        weights = areas(line, poses, way)
+        weights = areas(line, poses, senses[i])
         shares.append(tuple(weights) if line.tie is not None else tuple(weight / weights[0] for weight in weights))
         for cylinder, part in zip(line.cylinders, shares[-1], strict=True):
             for j, other in enumerate(lines):
@@ -432,14 +450,15 @@ def levers_of(poses: FlatPoses, holders: Holders, way: int) -> Levers:
         return reduce(np.add, (part * lever_of(poses, each, stroke)[0] for each, part in zip(line.cylinders, own, strict=True)))
 
     cuts = [tuple(work(other, own, each.stroke) for other, own in zip(lines, shares, strict=True)) for each in holders.closed]
-    return Levers(matrix, sizes, tuple(shares), tuple(cuts), tuple(tuple(areas(line, poses, way)) for line in holders.closed))
+    return Levers(matrix, sizes, tuple(shares), tuple(cuts), tuple(tuple(areas(line, poses, 1)) for line in holders.closed))
 
 
 def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
     """Return the thrust of each cylinder of a line at one unit of the line's pressure [m2], shape (n,).
 
     Along the stroke that the line holds, some cylinders grow with the first and some against it. Where the first one pushes
-    (`way` 1), the others drive the stroke the same way. Of a tie it is what its shares say.
+    (`way` 1), the others drive the stroke the same way, unless chambers that are joined say what they do. Of a tie it is what its shares
+    say.
     """
     if line.tie is not None:
         return [poses.flattened(share_in(line.tie, each, poses.motion)) for each in line.cylinders]
@@ -449,7 +468,20 @@ def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
         return [poses.flattened(each.area_in(poses.motion, np.ones(()))) for each in line.cylinders]
     growth = [poses.growth(*each.ends, line.stroke) for each in line.cylinders]
     senses = [poses.full(elementwise(np.sign, (rate * growth[0],)) * way) for rate in growth]
-    return [poses.flattened(each.area_in(poses.motion, sense)) for each, sense in zip(line.cylinders, senses, strict=True)]
+    first, motion = line.cylinders[0], poses.motion
+    return [poses.flattened(each.area_beside(motion, sense, first, way)) for each, sense in zip(line.cylinders, senses, strict=True)]
+
+
+def settled(holders: Holders, units: Sequence[FloatArray], values: Sequence[FloatArray]) -> FloatArray:
+    """Return, of values for each of the holders' `senses`, those with which the first cylinders do push and pull.
+
+    `units` are the thrusts of these first cylinders (lines, n) with each.
+    """
+    for place in reversed([k for k, line in enumerate(holders.lines) if line.changes_shares]):
+        pairs = [*zip(units[::2], units[1::2], strict=True)]
+        values = [where_negative(a[place], y, x) for (a, _), x, y in zip(pairs, values[::2], values[1::2], strict=True)]
+        units = [np.stack([where_negative(a[place], q, p) for p, q in zip(a, b, strict=True)]) for a, b in pairs]
+    return values[0]
 
 
 def lever_of(poses: FlatPoses, cylinder: TwoPoint, stroke: str) -> tuple[FloatArray, FloatArray]:
@@ -471,7 +503,7 @@ def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: 
     lost = ~(cond <= REFUSE)
     near, motion = (cond > WARN) & ~lost, poses.motion
     if lost.any():
-        worst = float(np.max(np.nan_to_num(cond[lost], nan=np.inf)))
+        worst = float(np.max(np.nan_to_num(cond[lost], nan=np.inf, posinf=np.inf)))
         size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
         after = f": {reason} (condition {size}, refused above {REFUSE:.0e})."
         refuse_at(motion, poses.mask(lost), f"{what} {is_or_are(what)} refused", after)

@@ -77,15 +77,7 @@ def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseFor
     """Return the forces by the equations solved on arrays."""
     system = system_with_friction(poses, applied)
     structure, full = system.structure, poses.full
-    found = Equilibrium(system, split).solution()
-    pulls = np.zeros(poses.count, bool)
-    for line in structure.holders.lines:
-        if line.changes_shares:  # several cylinders, one of which works with both sides: solved again where the first pulls
-            pulls |= found.value(system.thrust(next(each for each in structure.struts if each.line is line))) < 0.0
-    if pulls.any():
-        other = Equilibrium(system, split, -1).solution()
-        u, q = (np.where(pulls[:, None], a, b) for a, b in ((other.u, found.u), (other.q, found.q)))
-        found = Solution(system, u, q, np.where(pulls, other.locked, found.locked))
+    found = solved(system, split, (1,) * len(structure.holders.lines))
     ropes = structure.holders.reeved
     pushed = {name: found.value(system.run(k)) > 0.0 for k, (name, run) in enumerate(ropes.items()) if run.back}
     if any(each.any() for each in pushed.values()):
@@ -100,6 +92,21 @@ def by_equations(poses: FlatPoses, applied: AppliedLoads, split: str) -> PoseFor
     )  # fmt: skip
     check_joints(structure, poses)
     return result
+
+
+def solved(system: System, split: str, senses: tuple[int, ...], start: int = 0) -> Solution:
+    """Return the solution in some senses of lines; of those from `start` that change shares again where their first cylinders pull."""
+    lines = system.structure.holders.lines
+    place = next((k for k in range(start, len(lines)) if lines[k].changes_shares), None)
+    if place is None:
+        return Equilibrium(system, split, senses).solution()
+    found = solved(system, split, senses, place + 1)
+    pulls = found.value(system.thrust(next(each for each in system.structure.struts if each.line is lines[place]))) < 0.0
+    if not pulls.any():
+        return found
+    other = solved(system, split, (*senses[:place], -1, *senses[place + 1 :]), place + 1)
+    u, q = (np.where(pulls[:, None], a, b) for a, b in ((other.u, found.u), (other.q, found.q)))
+    return Solution(system, u, q, np.where(pulls, other.locked, found.locked))
 
 
 def system_with_friction(poses: FlatPoses, applied: AppliedLoads) -> System:
@@ -165,19 +172,19 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
 class Equilibrium:
     """A system with the equations of its thrusts, and a column for each support that replaces a known drive force.
 
-    `way` is 1 where the first cylinders of lines push, -1 where they pull; `given` are forms whose values are known besides.
+    `senses` are 1 where the first cylinders of lines push, -1 where they pull; `given` are forms whose values are known besides.
     """
 
     system: System
     split: str = "refuse"
-    way: int = 1
+    senses: tuple[int, ...] = ()
     given: tuple[tuple[LinearForm, FloatArray], ...] = ()
     supports: FloatArray | None = None
 
     @cached_property
     def bound(self) -> list[tuple[LinearForm, FloatArray]]:
         """The forms whose values are known."""
-        return [*self.system.known(self.way), *self.given]
+        return [*self.system.known(self.senses), *self.given]
 
     @cached_property
     def A(self) -> FloatArray:

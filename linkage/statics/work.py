@@ -21,7 +21,7 @@ from ..quantities import needs
 from ..units import require_number
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
-from .holding import Holders, Levers, PressureLine, holders_of, is_among, same, stroke_followed, where_negative, with_levers
+from .holding import Holders, Levers, PressureLine, holders_of, is_among, same, settled, stroke_followed, with_levers
 from .law_requests import TracedMotion, is_unchanging, once_in
 from .poses import AnyMotion, FlatPoses, motion_of_whole, plan_of
 from .solution import AGREES, LEAST, PoseForces, disagreeing, held_in_case, locked_words
@@ -212,12 +212,8 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
     ends = (end for each in (holders.every_cylinder if holders.closed else line.cylinders) for end in each.ends)
     poses, levers, (need, cuts) = frictionless(motion, applied, acting, rates, holders, ends, what)
     thrusts = [each.thrust(holders, member, need, cuts) for each in levers]
-    if len(levers) > 1:  # another one where the first cylinders pull
-        changing = (k for k, each in enumerate(holders.lines) if each.changes_shares)
-        place = next((k for k, each in enumerate(holders.lines) if is_among(member, each.cylinders)), None)
-        pulling = levers[0].thrusts(need)[:, next(changing) if place is None else place]
-        thrusts = [where_negative(pulling, thrusts[1], thrusts[0])]
-    return poses.full(sum(map(poses.flattened, laws), thrusts[0]))[()]
+    units = [np.moveaxis(each.thrusts(need), 1, 0) for each in levers] if len(levers) > 1 else []
+    return poses.full(sum(map(poses.flattened, laws), settled(holders, units, thrusts)))[()]
 
 
 def pump_thrust(motion: AnyMotion, element: TwoPoint, acting: Acting) -> FloatArray:
@@ -247,10 +243,7 @@ def closed_force(motion: AnyMotion, element: ForceElement, acting: Acting) -> Fl
     poses, levers, (need, cuts) = frictionless(motion, applied, acting, rates, holders, points, what)
     units = [np.moveaxis(each.thrusts(need) if holders.lines else need, 1, 0) for each in levers]
     forces = [each.kept_force(holders.closed.index(line), list(unit), cuts) for each, unit in zip(levers, units, strict=True)]
-    if len(levers) == 1:
-        return poses.full(forces[0])[()]
-    pulling = next(k for k, each in enumerate(holders.lines) if each.changes_shares)
-    return poses.full(where_negative(units[0][pulling], forces[1], forces[0]))[()]
+    return poses.full(settled(holders, units, forces))[()]
 
 
 def with_friction(motion: AnyMotion, applied: AppliedLoads, what: str) -> PoseForces | None:

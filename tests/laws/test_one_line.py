@@ -20,9 +20,11 @@ from hydraulics import (
     lift_verdicts,
     pressure,
     reserve,
+    thrust,
 )
 from linkage import (
     LEFT,
+    Crank,
     DefinitionError,
     Dyad,
     Force,
@@ -36,8 +38,10 @@ from linkage import (
     Pin,
     PinFriction,
     Rope,
+    SingularError,
     Stroke,
     Weight,
+    angle,
     drawn,
     drive_force,
     driving_force,
@@ -47,6 +51,7 @@ from linkage import (
 )
 from linkage.formulas import equations
 from linkage.motion import least, most
+from linkage.quantities import label
 from linkage.units import bar, deg, kN, litre
 from tests.for_all import for_all
 
@@ -286,3 +291,82 @@ def test_a_parts_list_names_the_link_that_a_rope_or_a_line_gives_its_length():
         assert remedy in str(refused.value)
         motion = made(base=Listed, hung=eval(remedy, {"Link": Link, "ref": ref}), **members)().at(S=0.0)
         assert_allclose(motion.distance("C", "W"), 2.3, rtol=1e-12)
+
+
+def shared(seed):
+    """Return a boom and a jib, each on two or three rams of one spool or on joined chambers; its rams and their lines, arm by arm."""
+    draw, members, arms = Random(seed), dict(S=Stroke(-0.3, 0.3), R=Stroke(-0.3, 0.3)), []
+    members |= dict(O=Ground(0.0, 0.0), B=Crank("O", OB=0.5, angle="S"), K=OnLink("O", "B", OK=2.0, BOK=10 * deg))
+    jib = ref("R") + ref("turned") if draw.random() < 0.6 else "R"  # where it is "R" the lines of both move with S
+    members |= dict(turned=angle("O", "B"), J=Crank("K", KJ=0.4, angle=jib), T=OnLink("K", "J", KT=draw.uniform(0.8, 1.5)))
+    members |= dict(
+        load=Force("T", (draw.uniform(-9, 9) * kN, draw.uniform(-9, 9) * kN)), pull=Force("B", (0.0, draw.uniform(-60, 60) * kN))
+    )
+    for arm, (base, end) in enumerate((("frame", "B"), ("boom", "J"))):
+        rams, kind = [f"ram{arm}{k}" for k in range(draw.choice((2, 2, 3)))], draw.choice(("spool", "crossed", "alike", "part"))
+        for k, ram in enumerate(rams):
+            x, y = draw.uniform(-0.3, 0.3), draw.choice((-1, 1)) * draw.uniform(0.4, 0.7)
+            members[f"A{ram}"] = Ground(x, y) if base == "frame" else OnLink("O", "K", **{f"OA{ram}": 2.0 + x, f"KOA{ram}": 0.4 * y})
+            works = "both" if k == len(rams) - 1 else draw.choice(("piston", "rod", "both"))
+            given = dict(works=works) if kind == "spool" else {}
+            members[ram] = Cylinder(f"A{ram}", end, bore=draw.uniform(60, 120) * mm, rod=draw.uniform(25, 55) * mm, **given)
+        if kind == "spool":
+            members[f"line{arm}"] = LiftCircuit(rams, pressure=200 * bar)
+        else:
+            ways = [("piston", "rod") if kind == "alike" or k % 2 == 0 else ("rod", "piston") for k, _ in enumerate(rams)]
+            joined = [[f"{ram}.{way[side]}_side" for ram, way in zip(rams, ways, strict=True)] for side in (0, 1)]
+            joined[1] = joined[1][:1] if kind == "part" else joined[1]
+            members |= {f"line{arm}{side}": OilLine(*on, Pump(200 * bar)) for side, on in enumerate(joined)}
+        arms.append((kind, rams))
+    return made(base=Mechanism, **members), arms
+
+
+@for_all("seed", (0, 3), slow=range(4, 20))
+def test_rams_of_one_line_have_its_pressure_on_the_side_that_it_fills(seed):
+    structure, arms = shared(seed)
+    machine, poses = structure(), dict(S=np.array([-0.25, 0.0, 0.1, 0.28]), R=np.array([0.2, -0.28, 0.0, 0.26]))
+    motion = machine.at(unreachable="nan", **poses)
+    forces, members = pin_forces(motion), machine.plan.members
+    every = [members[ram] for _, each in arms for ram in each]
+    evaluated = machine.evaluate([thrust(ram) for ram in every], unreachable="nan", **poses)
+    for ram, value in zip(every, evaluated, strict=True):
+        assert_allclose(forces.thrusts[ram.name], ram.thrust(motion), rtol=1e-9, atol=1e-6)
+        assert_allclose(value, ram.thrust(motion), rtol=1e-9, atol=1e-6)
+    for (kind, rams), stroke in zip(arms, ("S", "R"), strict=True):
+        thrusts = [members[ram].thrust(motion) for ram in rams]
+        needed = sum(ram.thrust(motion) * ram.growth(motion, {stroke: 1.0}) for ram in every)
+        assert_allclose(needed, np.where(np.isnan(needed), np.nan, driving_force(motion, drive=stroke)), rtol=1e-9)
+        sizes = [members[ram].sized(motion) for ram in rams]
+        lines = [each for each in members.values() if isinstance(each, OilLine) and each.name.startswith(f"line{stroke == 'R':d}")]
+        if kind == "spool":
+            sides = [np.where(each > 0.0, size.push_area, size.pull_area) for each, size in zip(thrusts, sizes, strict=True)]
+            found = [abs(each) / side for each, side in zip(thrusts, sides, strict=True)]
+            assert all(np.all((each < 1e-6) | (abs(each - np.max(found, axis=0)) < 1e-6 * each) | np.isnan(each)) for each in found)
+            continue
+        given = [line.line_pressure(motion) for line in lines]
+        for ram, each, size in zip(rams, thrusts, sizes, strict=True):
+            sides = [(line, chamber.side) for line in lines for chamber in line.chambers if label(chamber.cylinder) == ram]
+            parts = [given[lines.index(line)] * (size.push_area if side == "piston" else -size.pull_area) for line, side in sides]
+            assert_allclose(sum(parts), each, rtol=1e-9, atol=1e-3)
+        assert np.all((np.min(given, axis=0) > -1e-3) | np.isnan(given[0]))
+
+
+class Swing(Mechanism):
+    """A boom swung by two opposed cylinders, crossed on two lines, so far that both lines turn it back."""
+
+    phi = Stroke(-70 * deg, 70 * deg)
+    O, L, R = Ground(0.0, 0.0), Ground(-0.35, -0.25), Ground(-0.35, 0.25)
+    T = Crank(O, OT=2.4, angle=phi)
+    P, Q = OnLink(O, T, OP=0.22, TOP=100 * deg), OnLink(O, T, OQ=0.22, TOQ=-100 * deg)
+    load = Weight(T, mass=900, gravity=(0.0, -1.4))
+    left, right = Cylinder(L, Q, bore=90 * mm, rod=50 * mm), Cylinder(R, P, bore=90 * mm, rod=50 * mm)
+    a = OilLine(left.piston_side, right.rod_side, Pump(200 * bar))
+    b = OilLine(left.rod_side, right.piston_side, Pump(200 * bar))
+
+
+def test_a_pose_where_both_of_two_crossed_lines_drive_one_way_is_refused_and_told():
+    told = {str(each).split(":")[0]: each for each in Swing().verdicts()}
+    assert "nan" not in "".join(told.values()) and told["FAIL lifting left b"].endswith("keep away from these.")
+    assert "grows without bounds at phi = -61.03 deg" in told["FAIL lifting left a"]
+    with pytest.raises(SingularError, match="condition infinite"):
+        Swing.left.thrust(Swing().at(phi=-66 * deg))

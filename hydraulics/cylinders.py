@@ -1031,8 +1031,7 @@ class Cylinder(BarrelAndRod, Ram):
         found = self.pressed_wrongly(judge) if self._is_bare(judge) else None
         if found is None:
             return own
-        force = said("a force without bounds") if found.unbounded else said("up to {thrust}", thrust=show(abs(found.value), "kN", 4))
-        given = {"name": self.name, "force": force, "where": found.place}
+        given = {"name": self.name, "force": force_words(found), "where": found.place}
         text = said('the load pushes {name} with {force}, {where}: its rod side holds no push; say works="both" or "piston".', **given)
         if self.side == PISTON:
             text = said('the load pulls {name} with {force}, {where}: its piston side holds no pull; say works="both" or "rod".', **given)
@@ -1226,6 +1225,11 @@ def in_stage(request: LawRequest, cylinder: str | Ram, stage: int) -> LawRequest
 
 Reading: TypeAlias = Callable[[AnyMotion], Array]
 """A number of a cylinder over the poses of a motion [SI]."""
+
+
+def force_words(found: Answer) -> str:
+    """Return how great the force of an answer is, in words."""
+    return said("a force without bounds") if found.unbounded else said("up to {thrust}", thrust=show(abs(found.value), "kN", 4))
 
 
 def thrust_along(cylinder: Ram, thrust: Array) -> Array:

@@ -518,12 +518,12 @@ class LiftingCylinder:
             return pulled
         order, asked = self.sides, [each <= limit for each in self.standing]
         found = self.judge.answers(asked)
-        endless = next((each for each in found if each.unbounded), None)
+        left = self.left(self.ram, circuit)
+        loose = None if left is None else self.ram.pressed_wrongly(self.judge, left)
+        endless = next((each for each in (*found, loose) if each is not None and each.unbounded), None)
         if endless is not None:
             text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.place)
             return Verdict("holding", False, text, answer=endless)
-        left = self.left(self.ram, circuit)
-        loose = None if left is None else self.ram.pressed_wrongly(self.judge, left)
         if loose is not None:
             by = {"force": show(-loose.value, "kN", 4), "where": loose.place, "remedy": said("Let the load press on it.")}
             beside = line_beside(self.ram, other_side(self.ram), circuit, self.judge.plan.members)

@@ -37,7 +37,7 @@ from linkage.units import mm, require_measure, show, shown_number
 from linkage.verdict import Verdict
 
 from .buckling import Buckling
-from .cylinders import LENGTHS, PISTON, TOLERANCE, Ram, Side, circuits_among
+from .cylinders import LENGTHS, PISTON, TOLERANCE, Ram, Side, circuits_among, force_words
 from .inputs import Array, follows, in_metres, number_set, one_design, one_number, positive, stroke_in_metres
 from .remedy import show_enough
 from .standard_sizes import MOST, RamSize, Works, chosen_series
@@ -377,9 +377,9 @@ class Telescope(Ram):
         if found is None:
             return None
         text = said(
-            "the load pulls at it with up to {force}, {where}: it is single acting and no oil holds it; "
+            "the load pulls at it with {force}, {where}: it is single acting and no oil holds it; "
             "let the load press on it there, or take a cylinder.",
-            force=show(-found.value, "kN", 4), where=found.place,
+            force=force_words(found), where=found.place,
         )  # fmt: skip
         return Verdict("holding", False, text, answer=found)
 

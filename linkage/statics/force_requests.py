@@ -297,7 +297,7 @@ def drive_remarks(judge: Judge) -> list[Remark]:
         size = float(answer.value)
         if size > max(LEAST, found[name][0] if name in found else 0.0):
             unit = "kN" if stroke_unit(plan, name) == "m" else "Nm"
-            force = answer.amount if np.isinf(size) else show(size, unit, 4)
-            what = said("{stroke} is held by no cylinder: its drive gives up to {force}", stroke=name, force=force)
+            force = said("a force that grows without bounds") if np.isinf(size) else said("up to {force}", force=show(size, unit, 4))
+            what = said("{stroke} is held by no cylinder: its drive gives {force}", stroke=name, force=force)
             found[name] = size, Remark(f"{what}, {case_in_words(case) + ', ' if case else ''}{answer.place}.")
     return [remark for _, remark in found.values()]

@@ -1,6 +1,7 @@
 """One line of oil, however it is written: its pressure, the drive's force, where it was filled, how it goes down, what counts on it."""
 
 import math
+import re
 from random import Random
 
 import numpy as np
@@ -17,6 +18,7 @@ from hydraulics import (
     Pump,
     Relief,
     Tank,
+    Telescope,
     lift_verdicts,
     pressure,
     reserve,
@@ -370,3 +372,40 @@ def test_a_pose_where_both_of_two_crossed_lines_drive_one_way_is_refused_and_tol
     assert "grows without bounds at phi = -61.03 deg" in told["FAIL lifting left a"]
     with pytest.raises(SingularError, match="condition infinite"):
         Swing.left.thrust(Swing().at(phi=-66 * deg))
+
+
+class Jib(Mechanism):
+    """A jib whose cylinder comes to its dead point."""
+
+    phi = Stroke(0.0, 60 * deg)
+    O, A = Ground(0.0, 1.0), Ground(0.5, 0.2)
+    B = Crank(O, OB=0.8, angle=phi)
+    T = OnLink(O, B, OT=2.0)
+
+
+def past_its_dead_point(seed):
+    """Return it with a load, its cylinder on a line of one of some kinds, with a tank, gas or a pump beside it."""
+    draw, kind = Random(seed), ("tank", "telescope", "circuit", "gas", "pumps", "line", "bare")[seed % 7]
+    works = draw.choice(("piston", "rod", "both"))
+    side, other = ("rod", "piston") if works == "rod" else ("piston", "rod")
+    ram = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works=works if kind in ("bare", "circuit") else None)
+    if kind == "telescope":
+        ram = Telescope("A", "B", bores=[80 * mm, 60 * mm], strokes=[0.7, 0.7], closed=0.1)
+    gas = dict(charge_pressure=60 * bar) if kind == "gas" else {}
+    block = AccumulatorBlock([Accumulator(volume=30 * litre, charge=50 * bar)])
+    behind = dict(tank=Tank(5 * bar), gas=block, pumps=Pump(150 * bar)).get(kind)
+    begin = math.atan2(-0.8, 0.5) if seed % 2 else -80 * deg  # its dead point, or before it
+    across = draw.uniform(2, 5) * kN * (1 if side == "piston" else -1)  # against the side that works
+    members = dict(phi=Stroke(begin, 60 * deg), ram=ram, load=Force("T", (draw.uniform(-5, 5) * kN, across)))
+    if kind in ("circuit", "telescope"):
+        members["line"] = LiftCircuit("ram", pressure=160 * bar)
+    elif kind != "bare":
+        members["line"] = OilLine(f"ram.{side}_side", Pump(160 * bar))
+    return made(base=Jib, **members, **({} if behind is None else {"beside": OilLine(f"ram.{other}_side", behind, **gas)}))
+
+
+@for_all("seed", (1, 7), slow=(0, *range(2, 7), *range(8, 21)))
+def test_no_verdict_tells_a_number_that_is_none(seed):
+    told = [str(each) for each in past_its_dead_point(seed)().verdicts()]
+    assert any("dead point" in each for each in told)
+    assert not [each for each in told if re.search(r"\b(nan|inf)\b", each)]

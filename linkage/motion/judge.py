@@ -488,7 +488,7 @@ class RowFunction:
             if self._bound:
                 found = evaluate_bound(Evaluation(grid, self.program, among=self._among), None, "nan")
                 for k, number in zip(self._bound, self._among or range(len(found)), strict=True):
-                    values[k] = np.broadcast_to(found[number], motion.shape)
+                    values[k] = found[number]
             alone = dict[Hashable, FloatArray]()
             for k, row in enumerate(self.rows):
                 if k not in self._bound:

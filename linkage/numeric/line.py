@@ -126,8 +126,8 @@ def at_own_legs(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask
     A place that several functions ask for, as at a border that they share, is looked at once.
     """
     K, D = t.shape[:2]
-    legs = np.moveaxis(np.broadcast_to(leg[..., None], t.shape), 0, 1).reshape(D, -1)
-    places = np.moveaxis(t, 0, 1).reshape(D, -1)
+    legs = np.broadcast_to(leg[..., None], t.shape).swapaxes(0, 1).reshape(D, -1)
+    places = t.swapaxes(0, 1).reshape(D, -1)
     if K == 1:  # nothing is shared
         values, reached = look(legs, places)
         return values.reshape(t.shape), reached.reshape(t.shape)
@@ -137,7 +137,7 @@ def at_own_legs(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask
     values, reached = look(legs[:, first], places[:, first])
     own = back.reshape(K, -1)  # of each function its columns among those looked at
     values_of_each = values.reshape(K, D, -1)[np.arange(K)[:, None, None], np.arange(D)[:, None], own[:, None]]
-    return values_of_each.reshape(t.shape), np.moveaxis(reached.reshape(D, -1)[:, own], 1, 0).reshape(t.shape)
+    return values_of_each.reshape(t.shape), reached.reshape(D, -1)[:, own].swapaxes(0, 1).reshape(t.shape)
 
 
 # -- the samples ---------------------------------------------------------------------------------------------
@@ -147,7 +147,7 @@ def shifted(values: FloatArray, by: int, missing: float = np.nan, axis: int = -1
     """Return the values so many places on along an axis, `missing` beyond the ends."""
     found = np.full(values.shape, missing)
     into, out = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
-    np.moveaxis(found, axis, -1)[..., into] = np.moveaxis(values, axis, -1)[..., out]
+    found.swapaxes(axis, -1)[..., into] = values.swapaxes(axis, -1)[..., out]
     return found
 
 

@@ -65,12 +65,12 @@ class Reading(Where):
         named = reference if isinstance(reference, str) else reference.name
         if named and named not in self.members:
             raise unknown("Name", named, self.members)
-        member = reference if isinstance(reference, Member) and not named else self.members[named]
-        if not hasattr(member, rule):
-            raise DefinitionError(f"{named} = {member} stands where a {kind} is expected.")
+        member = reference if not named and isinstance(reference, Member) else self.members[named]
         name = member.name
         key = (kind, name or id(member))
         if key not in self._values:
+            if not hasattr(member, rule):
+                raise DefinitionError(f"{named} = {member} stands where a {kind} is expected.")
             if name:
                 self.placing.append(name)
             self._values[key] = (getattr(member, rule)(self), member)

@@ -149,10 +149,14 @@ def applied_elements(plan: Plan, acting: Acting, without: str = "") -> list[Appl
     return found
 
 
+PLAIN_LOADS = LoadCase(OWN_LOADS)
+"""The case of the machine's own loads as they are declared."""
+
+
 def case_of(plan: Plan, case: Case) -> LoadCase:
     """Return the load case that is meant; the plain one for None and "plain"."""
     if case is None or (isinstance(case, str) and case == PLAIN_CASE):
-        return LoadCase(OWN_LOADS)
+        return PLAIN_LOADS
     if isinstance(case, LoadCase):
         return case
     cases = plan.of_kind(LoadCase)

@@ -1,4 +1,7 @@
-"""A drawing as a machine: circles are pins, lines and outlines are links, a hatch in a circle fixes it, layers say the rest."""
+"""A drawing as a machine: circles are pins, lines and outlines are links, a hatch in a circle fixes it, layers say the rest.
+
+An outline is one polyline, or lines and arcs from end to end.
+"""
 
 from __future__ import annotations
 
@@ -22,6 +25,8 @@ MEETS = 1e-6
 """A line ends at a pin, or passes through it, where it comes nearer to it than so much of the size, or than the pin's radius."""
 CHORDS = 16
 """Chords of an arc between two corners."""
+LINES = "LINE", "LWPOLYLINE", "POLYLINE", "ARC", "ELLIPSE", "SPLINE"
+"""What a link is drawn with."""
 
 
 def read_dxf(found: FoundMachine, path: str, layers: Mapping[str, Sequence[str]]) -> None:
@@ -79,15 +84,16 @@ class DrawingReader:
             self.found.add_point(key, word if far <= 4.0 * radius and word else key, *place, circle in ground or is_hatched)
             self.pins[key] = place, radius
         self.found.ensure(self.pins, "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
-        lines = ("LINE", "LWPOLYLINE", "POLYLINE")
-        bodies: list[list[str]] = []
-        for each in [*self.entities_on(lines, "links")] or [*self.entities_on(lines, "")]:
-            keys = self.met(corners_of(each))
-            if len(keys) > 1:
-                bodies.append(keys)
-            else:
-                what = f"a {each.dxftype().lower()} of the layer {each.dxf.layer} with {len(keys)} pins"
-                self.found.left_out.append(f"{what}{self.loose_ends(each)}")
+        drawn = [*self.entities_on(LINES, "links")] or [*self.entities_on(LINES, "")]
+        met = [(each, self.met(corners_of(each))) for each in drawn]
+        bodies, loose = [keys for _, keys in met if len(keys) > 1], [each for each, keys in met if len(keys) < 2]
+        for edges, corners in outlines(loose, MEETS * self.found.size):
+            bodies += [keys] if len(keys := self.met(corners)) > 1 else []
+            loose = [each for each in loose if not any(each is edge for edge in edges)]
+        for each in loose:
+            kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
+            what = f"{kind} of the layer {each.dxf.layer} with {len(self.met(corners_of(each)))} pins"
+            self.found.left_out.append(f"{what}{self.loose_ends(each)}")
         for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
             if not any({*keys} < {*other} for other in bodies) and not any({*keys} == {*other} for other in bodies[:number]):
                 self.found.add_link("", keys)
@@ -151,6 +157,17 @@ def corners_of(entity: Any) -> list[Place]:
     except (DXFError, ValueError, ArithmeticError):
         return []
     return [(float(each.x), float(each.y)) for border in borders for each in border.flattening(inf, CHORDS)]
+
+
+def outlines(entities: Sequence[Any], gap: float) -> Iterator[tuple[list[Any], list[Place]]]:
+    """Yield the closed outlines that lines and arcs make from end to end, across a gap: their entities, and their corners."""
+    from ezdxf import edgeminer, edgesmith
+
+    edges = [*edgesmith.edges_from_entities_2d(entities, gap_tol=gap)]
+    for chain in edgeminer.find_all_simple_chains(edgeminer.Deposit(edges, gap_tol=gap)) if edges else ():
+        if edgeminer.is_loop(chain, gap_tol=gap):
+            corners = edgesmith.path2d_from_chain(chain).flattening(inf, CHORDS)
+            yield [edge.payload for edge in chain], [(float(each.x), float(each.y)) for each in corners]
 
 
 def way_to(entity: Any, word: str, place: tuple[float, float]) -> float:

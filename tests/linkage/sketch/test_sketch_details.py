@@ -336,7 +336,15 @@ def cad_drawing(how):
         drawn.add_text(name, dxfattribs=text)
     for ends, layer in (("OA", "CRANK"), ("AB", "0"), ("BC", "0"), *([("BA", "0")] if how == "doubled" else [])):
         P, Q = (np.array(places[each]) for each in ends)
-        cut = 4.0 * (Q - P) / np.linalg.norm(Q - P) if how == "trimmed" else 0.0
+        along = 4.0 * (Q - P) / np.linalg.norm(Q - P)
+        if how == "edges" and layer == "0":  # a bar with round ends, of two lines and two arcs
+            side, angle = 2.0 * along @ [[0.0, 1.0], [-1.0, 0.0]], np.degrees(np.arctan2(*along[::-1]))
+            drawn.add_line(P + side, Q + side)
+            drawn.add_line(Q - side, P - side)
+            drawn.add_arc(Q, 8.0, angle - 90.0, angle + 90.0)
+            drawn.add_arc(P, 8.0, angle + 90.0, angle + 270.0)
+            continue
+        cut = along if how == "trimmed" else 0.0
         drawn.add_line(P + cut, Q - cut, dxfattribs={"layer": layer})
     if how in ("mirrored", "turned"):
         space.add_blockref("M", (7, 9), dxfattribs={"xscale": -1} if how == "mirrored" else {"rotation": 30, "xscale": 2, "yscale": 2})
@@ -347,7 +355,7 @@ def cad_drawing(how):
     return document, places
 
 
-WAYS = "plain", "mirrored", "turned", "from behind", "blocks", "upright", "doubled", "trimmed", "hidden", "decimetres"
+WAYS = "plain", "mirrored", "turned", "from behind", "blocks", "upright", "doubled", "trimmed", "hidden", "decimetres", "edges"
 
 
 @for_all("how", WAYS)

@@ -12,7 +12,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from ..errors import DefinitionError, ensure
-from ..loads import Load
+from ..loads import Load, TwoPoint
 from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
@@ -255,10 +255,16 @@ class System:
             if line.tie is not None:
                 continue
             struts = [each for each in self.structure.struts if each.line is line]
-            (first, *others) = [(self.thrust(each), area) for each, area in zip(struts, areas(line, self.poses, way), strict=True)]
-            none = self.poses.zeros()
-            found += [(form.multiplied(first[1]).plus(first[0].multiplied(-1.0 * area)), none) for form, area in others]
+            parts = zip(map(self.thrust, struts), areas(line, self.poses, way), map(self.given_thrust, line.cylinders), strict=True)
+            (first, own, given), *others = parts
+            for form, area, its in others:  # by their areas, but for what other lines give
+                found.append((form.multiplied(own).plus(first.multiplied(-1.0 * area)), its * own - given * area))
         return found + list(self.tied())
+
+    def given_thrust(self, member: TwoPoint) -> FloatArray:
+        """Return the thrust (n,) that laws give a member, beside that of a line whose pressure answers."""
+        laws = [self.poses.flattened(each.thrust) for each in self.structure.thrusts if same(member, each.member)]
+        return reduce(np.add, laws, self.poses.zeros())
 
     def tied(self) -> Iterator[tuple[LinearForm, FloatArray]]:
         """Yield the equations of members on ties, whose thrusts follow fewer forces."""
@@ -267,8 +273,7 @@ class System:
             return
         members = [each for each in self.structure.holders.every_cylinder if any(is_among(each, line.cylinders) for line in ties)]
         forms = [self.thrust(next(strut for strut in self.structure.struts if strut.name == member_title(each))) for each in members]
-        laws = [[each.thrust for each in self.structure.thrusts if same(member, each.member)] for member in members]
-        given = [sum(map(self.poses.flattened, each), self.poses.zeros()) for each in laws]
+        given = [*map(self.given_thrust, members)]
         shares = [share_of(each, ties, [areas(line, self.poses, 1) for line in ties]) for each in members]
         none = self.poses.zeros()
         rows = [[none if each is None else each for each in row] for row in shares]

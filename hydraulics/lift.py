@@ -635,6 +635,9 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     if np.isnan(ends).any():
         return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(one_design(ram.taken(judge.motion, *own)) for ram, own in zip(rams, ends, strict=True))
+    if circuit.fills_others(judge.motion):
+        low, high = judge.answers(least_and_most(LawRequest(text=f"{circuit.name} volume", formula=circuit.volume, measures="volume")))
+        oil = float(high.value - low.value)
     both = [(ram, high - low) for ram, (low, high) in zip(rams, ends, strict=True) if ram.side == "both"]
     back = sum(float(way) * one_design(ram.sized(judge.motion).pull_area) for ram, way in both)
     says = said("{oil} from end to end", oil=show(oil, "l", ".2f"))

@@ -13,7 +13,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 from typing import Any, Unpack, cast
 
 import numpy as np
@@ -551,14 +551,28 @@ class LiftLine(Circuit):
     def taken(self, motion: Motion) -> Array:
         """Return the oil [m3] that the working sides take over the motion's range of lengths, between its poses too; one a design.
 
-        Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards.
+        Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards. What one of
+        several presses out fills the others.
         """
         found = []
         for ram in self.rams(motion):
             ram.travel(motion)  # refuses a motion without a pose
+            if self.fills_others(motion):
+                low, high = (np.asarray(each(motion, self.volume).value) for each in (lowest, greatest))
+                return np.asarray(high - low)[()]
             low, high = (each.reshape((*each.shape, *(1,) * len(motion._stroke_shape))) for each in ram.extent(motion))
             found.append(for_designs(motion, ram.taken(motion, low, high)))
         return np.asarray(sum(found))[()]
+
+    def fills_others(self, motion: Poses) -> bool:
+        """Return whether it is on several cylinders, on one chamber of each or more, so that one may fill the other."""
+        rams = self.rams(motion)
+        return len(rams) > 1 and all(ram.side != "both" for ram in rams)
+
+    def volume(self, motion: Poses) -> Array:
+        """Return the oil in its chambers, shape (...) [m3], up to a constant."""
+        chambers = ((ram, each.side, motion.distance(ram.A, ram.B)) for ram, each in self.filling(motion.plan.members))
+        return reduce(np.add, [ram.filled(side, motion, np.zeros(()), length) for ram, side, length in chambers])
 
     def time(self, motion: Motion) -> Array:
         """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""

@@ -356,6 +356,9 @@ def test_rams_of_one_line_have_its_pressure_on_the_side_that_it_fills(seed):
             parts = [given[lines.index(line)] * (size.push_area if side == "piston" else -size.pull_area) for line, side in sides]
             assert_allclose(sum(parts), each, rtol=1e-9, atol=1e-3)
         assert kind == "tank" or np.all((np.min(given, axis=0) > -1e-3) | np.isnan(given[0]))
+        way = machine.sweep(S=101, R=0.1) if stroke == "S" else machine.sweep(S=0.1, R=101)
+        oil = np.ptp(lines[0].oil(way))
+        assert oil * (1 - 1e-9) <= lines[0].taken(way) <= oil * 1.01
 
 
 class Swing(Mechanism):
@@ -375,6 +378,7 @@ def test_a_pose_where_both_of_two_crossed_lines_drive_one_way_is_refused_and_tol
     told = {str(each).split(":")[0]: each for each in Swing().verdicts()}
     assert "nan" not in "".join(told.values()) and told["FAIL lifting left b"].endswith("keep away from these.")
     assert "grows without bounds at phi = -61.03 deg" in told["FAIL lifting left a"]
+    assert f"{np.ptp(Swing.a.oil(Swing().sweep(2001))) / litre:.2f} l from end to end" in told["ok   oil a"]
     with pytest.raises(SingularError, match="condition infinite"):
         Swing.left.thrust(Swing().at(phi=-66 * deg))
 

@@ -647,6 +647,9 @@ def for_designs(motion: Motion, value: ArrayLike) -> Array:
 
 def pressure_range(low: Answer, high: Answer, unit: str) -> str:
     """Return from where to where a line's pressure goes, in words; a unit of pressure."""
+    endless = next((each for each in (low, high) if np.isinf(each.value)), None)
+    if endless is not None:
+        return said("its pressure grows without bounds {where}", where=endless.where)
     return said(
         "its pressure goes from {low} {low_where} to {high} {high_where}",
         low=show(low.value + 0.0, unit, 4), low_where=low.where, high=show(high.value + 0.0, unit, 4), high_where=high.where,

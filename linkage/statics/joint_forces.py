@@ -407,8 +407,10 @@ def joints_of(
     for contact, (force, couple) in zip(structure.contacts, forces, strict=True):
         axis = structure.bodies[contact.on].axis if 0 <= contact.on < len(structure.bodies) else None
         on, by = structure.name(contact.on), structure.name(contact.by)
-        place = None if poses is None else acting_place(contact, poses)
-        place = None if poses is None or place is None or place is poses.at(contact.point) else poses.full(place)
+        place = None
+        if poses is not None and not contact.is_at_point:
+            origin = acting_place(contact, poses)
+            place = None if origin is poses.at(contact.point) else poses.full(origin)
         found.append(JointForce(contact.point, on, by, contact.kind, force, couple, axis, contact.has_force, place))
     return tuple(found)
 

@@ -289,6 +289,12 @@ class Contact:
         return self.holds != "c"
 
     @property
+    def is_at_point(self) -> bool:
+        """Whether its force acts at its point, which runs on the line where it has one; else at the line's origin."""
+        joint = self.joint
+        return joint.line is None or bool(joint.track) or "runner" in (joint.on.role, joint.by.role)
+
+    @property
     def is_curve(self) -> bool:
         """Whether its point is driven along a line of the frame that is no guide's: its way follows from the point itself.
 
@@ -592,15 +598,12 @@ SAME = 1e-9
 
 
 def acting_place(contact: Contact, poses: FlatPoses) -> FloatArray:
-    """Return where a contact's force acts, shape (2, n) [m]: at its line's origin, or at the point that runs on the line.
-
-    An origin that is the point to rounding is the point, as the motion has it.
-    """
+    """Return where a contact's force acts, shape (2, n) [m]; an origin that is the point to rounding is the point, as the motion has it."""
     joint, point = contact.joint, poses.at(contact.point)
-    if joint.line is None or joint.track or "runner" in (joint.on.role, joint.by.role):
+    if joint.line is None or contact.is_at_point:
         return point
     with np.errstate(all="ignore"):
-        origin = joint.line(poses.motion._reading).origin
+        origin = joint.line(poses.motion._placed).origin
     place = poses.stacked(origin.x, origin.y)
     if place.dtype == object:
         return place
@@ -612,7 +615,7 @@ def force_direction(contact: Contact, letter: str, poses: FlatPoses) -> FloatArr
     along = np.stack([np.ones(poses.count), np.zeros(poses.count)])
     if letter not in "xy" and contact.joint.line is not None:
         with np.errstate(all="ignore"):
-            way = contact.joint.line(poses.motion._reading).direction
+            way = contact.joint.line(poses.motion._placed).direction
         vector = poses.stacked(way.x, way.y)
         along = np.asarray(vector / np.hypot(vector[0], vector[1]))
     return quarter_turned(along) if letter in "yn" else along

@@ -52,7 +52,7 @@ class TracedMotion(OnePose):
     unreachable = "raise"
 
     def __init__(self, plan: Plan, trace: Trace) -> None:
-        self.plan, self._reading = plan, trace
+        self.plan, self._reading, self._placed = plan, trace, trace
         self.notes = Notes()
         self.read: set[str] = set()
         self.through: set[str] = set()

@@ -76,7 +76,7 @@ class FlatPoses:
     def at(self, point: str) -> FloatArray:
         """Return a point's position, shape (2, n) [m]."""
         if (point,) not in self._kept:
-            place = self.motion._reading.at(self.plan.points[point]) if point in self.plan.ground else None
+            place = self.motion._placed.at(point) if point in self.plan.ground else None
             self._kept[(point,)] = self.flattened(self.motion[point]) if place is None else self.stacked(place.x, place.y)
         return self._kept[(point,)]
 
@@ -135,8 +135,8 @@ class AnyMotion(Poses, Protocol):
         """The treatment of other poses: "raise" or "nan"."""
 
     @property
-    def _reading(self) -> Reading:
-        """Every rule of the plan read at the poses."""
+    def _placed(self) -> Reading:
+        """Every rule of the plan read at the poses, whose points are where the motion has them."""
 
     def _refused(self, what: Request, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked."""

@@ -32,7 +32,7 @@ class Body:
     points: tuple[str, ...]
     fixed: bool = False
 
-    @property
+    @cached_property
     def name(self) -> str:
         """The points' names joined, or `frame`."""
         return FRAME if self.fixed else body_name(self.points)

@@ -24,7 +24,7 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..units import show, shown_number
 from .answer import OF_VALUE, UNBOUNDED, Answer, PerDesign
-from .grid import JoinedTo, joined_in_order, recalled
+from .grid import Grid, JoinedTo, joined_in_order, recalled
 from .instants import Instants
 from .limits import LoopMargin, place_text, places_text, stroke_unit
 from .motion import Motion, require_motion
@@ -468,7 +468,7 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
         for row, loop in enumerate(known.loops):
             place = {name: value[row] for name, value in least.strokes.items()}
             there = {name: np.reshape(value, (*motion._design_shape, 1)) for name, value in place.items()}
-            grid = Motion(motion.plan, motion.designs, there, "nan", per_design=True)._grid
+            grid = Grid(motion.plan, motion.designs, there, per_design=True)
             sizes = grid.full(known.rounding(grid.flat, way=ON_ARRAYS, size=grid.size).values)[row, ..., 0]
             rounding = np.reshape(ROUNDING * np.fmax(np.abs(sizes), 1.0), motion._design_shape)
             hole = np.asarray(least.value[row] < -rounding)[()]

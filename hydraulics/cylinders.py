@@ -688,7 +688,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         elif not (worst.ok or worst.unbounded):  # the one of some sizes that holds wherever it runs; here a bar tells where to begin
             enough = bar.thicker(length, push)
             start = next((place for place, size in enumerate(thicker) if size[name] in enough), len(thicker))
-            found = smallest(judge, self, thicker, start, lambda ram: [most(buckling_request(ram, Acting())) <= 1.0])
+            found = smallest(judge, self, thicker, start, lambda ram: [most(buckling_request(ram, Acting())) <= 1.0], worst)
             holds = None if found is None else found[0][name]
             remedy = bar.remedy_words(holds, is_bore_small=bool(enough), is_stage=name != "rod")
         given, where = {"thrust": show(total, "kN", 4), "n": self.count, "share": total / self.count / push}, worst.place

@@ -452,7 +452,7 @@ class LiftingCylinder:
             return Verdict("lifting", True, f"{says}{free}.", answer=found)
         short = self.parts(found, lambda reserve: np.nan_to_num(reserve, nan=2.0) - 1.0)
         weak = said("; too weak {where}", where=with_and(short)) if short else ""
-        return Verdict("lifting", False, f"{says}{weak}{free}. {self.remedy(float(found.value))}", answer=found)
+        return Verdict("lifting", False, f"{says}{weak}{free}. {self.remedy(found)}", answer=found)
 
     def parts(self, found: Answer, of_reserve: Callable[[Array], Array]) -> tuple[Span, ...]:
         """Return the parts of the one way, where there is one, on which a function of the reserve is below zero, in the worst situation."""
@@ -472,7 +472,7 @@ class LiftingCylinder:
         is_taken = line_beside(self.ram, behind, self.circuit, members) is not None
         return "" if is_taken else said("; an OilLine with a pump on {ram}.{side}_side judges it as well", ram=self.ram.name, side=behind)
 
-    def remedy(self, reserve: float) -> str:
+    def remedy(self, worst: Answer) -> str:
         """Return the remedy for a reserve below 1: a pressure, or a standard bore with its reserve."""
         found = self.judge.answer(most(pressure_request(*self.request_arguments, is_needed=True)))
         if found.unbounded or not np.isfinite(found.value):
@@ -488,7 +488,9 @@ class LiftingCylinder:
         larger = self.ram.larger(self.judge.motion)
         if larger and not can_be_set(self.judge, self.ram, larger[0]):
             return said("It needs {needed}, or a larger size{counts}.", needed=needed, counts=counts)
-        found_with = self.mended(larger, reserve, lambda ram: [least(reserve_request(ram, Acting(), self.circuit)) >= 1.0])
+        found_with = self.mended(
+            larger, float(worst.value), lambda ram: [least(reserve_request(ram, Acting(), self.circuit)) >= 1.0], worst
+        )
         if found_with is None:
             rod = said("It needs {needed}; no standard rod is thick enough{counts}.", needed=needed, counts=counts)
             return rod if counts else said("It needs {needed}; no standard bore is large enough.", needed=needed)
@@ -499,14 +501,14 @@ class LiftingCylinder:
         )  # fmt: skip
 
     def mended(
-        self, larger: Sequence[Sizes], reserve: float, questions: Callable[[Ram], Sequence[Question]]
+        self, larger: Sequence[Sizes], reserve: float, questions: Callable[[Ram], Sequence[Question]], worst: Answer
     ) -> tuple[Sizes, list[Answer]] | None:
         """Return the first of some larger sizes that keeps conditions, with the answers; the search begins at the missing area."""
         now = self.ram.sized(self.judge.motion)
         areas = [one_design(replace(now, **sizes).area) for sizes in larger]  # type: ignore[type-var]
         wanted = one_design(now.area) / reserve
         start = next((place for place, area in enumerate(areas) if area >= wanted * (1.0 - 1e-9)), len(areas))
-        return smallest(self.judge, self.ram, larger, start, questions)
+        return smallest(self.judge, self.ram, larger, start, questions, worst)
 
     # -- holding and going back ----------------------------------------------------------------------------
 
@@ -561,7 +563,7 @@ class LiftingCylinder:
             return said("take larger stages")
         larger, limit = self.ram.larger(self.judge.motion), float(self.circuit.relief_pressure(self.judge.motion))
         alone = len(self.circuit.rams(self.judge.motion)) == 1
-        found = self.mended(larger, limit / float(worst.value), lambda ram: asked) if alone else None
+        found = self.mended(larger, limit / float(worst.value), lambda ram: asked, worst) if alone else None
         size = said("take a thicker rod") if self.ram.side == "regenerative" else said("take a larger bore")
         if found is None:
             return said("no standard size is large enough, keep away from that pose") if alone else size

@@ -9,6 +9,7 @@ from linkage.errors import LinkageError, ensure, unwarned
 from linkage.language import said
 from linkage.loads import ForceElement
 from linkage.motion import Answer, Judge, Question
+from linkage.motion.answer import OF_VALUE
 from linkage.units import rounded_up, show
 
 Sizes: TypeAlias = Mapping[str, float]
@@ -39,19 +40,23 @@ def can_be_set(judge: Judge, element: ForceElement, sizes: Sizes) -> bool:
 
 
 def smallest(
-    judge: Judge, element: Element, each: Sequence[Sizes], start: int, questions: Callable[[Element], Sequence[Question]]
+    judge: Judge, element: Element, each: Sequence[Sizes], guess: int, questions: Callable[[Element], Sequence[Question]], worst: Answer
 ) -> tuple[Sizes, list[Answer]] | None:
     """Return the first of some ascending sizes with which all conditions are kept, with their answers; None where none does.
 
-    It is looked for from the place `start` of them, upwards or downwards.
+    It is looked for from the place `guess` of them, upwards or downwards. Another one is first tried where the present size is `worst`:
+    what fails there is looked at nowhere else.
     """
-    fails, holds, found = -1, len(each), None
+    fails, holds, found, start = -1, len(each), None, guess
     while holds - fails > 1:
         start = min(max(start, fails + 1), holds - 1)
         try:
             with unwarned():
                 other, changed = resized(judge, element, each[start])
-                answers = other.answers(questions(changed))
+                asked = questions(changed)
+                answers = other.alone_at(worst).answers(asked) if start != guess else []
+                if not any(answer.ok is False and answer.status == OF_VALUE for answer in answers):
+                    answers = other.answers(asked)
         except LinkageError:
             answers = []
         if answers and all(answer.ok for answer in answers):

@@ -687,6 +687,14 @@ class Judge:
         key = "there", *strokes, np.array([*strokes.values(), answer.time], float).tobytes()
         return way._once(key, lambda: way._there(strokes, answer.time))
 
+    def alone_at(self, answer: Answer) -> Judge:
+        """Return the judge of the pose and the situation of an answer alone; this one along a path, where forces follow the way."""
+        if any(place.over.shape == "path" for place in self.places):
+            return self
+        found = Judge(self.plan, self.designs, [self.there(answer)], self.situation(answer), self.machine)
+        found.places[0].program = max((place.program for place in self.places), key=len)
+        return found
+
     @property
     def is_reached(self) -> bool:
         """Whether any place that it looks at can be assembled."""

@@ -28,7 +28,8 @@ from hydraulics import (
 )  # fmt: skip
 from hydraulics.standard_sizes import chosen_series
 from linkage import LEFT, Dimension, Dyad, Force, Ground, Guide, LoadCase, Mechanism, OnGuide, OnLink, PinFriction, Stroke, report
-from linkage.motion import least, most
+from linkage.motion import judge, least, most
+from linkage.motion.search import extremum_reached
 from linkage.units import bar, deg, inch, kN, litre, mm, psi, unit_system
 from tests.for_all import for_all
 from tests.members import told_by
@@ -252,10 +253,14 @@ def test_a_rod_at_rest_or_going_back_carries_its_load_alone():
     assert not [each for each in told_by(fed(), "ram") if each.startswith("Against a stop")]
 
 
-def test_a_rod_that_is_named_holds_and_a_thinner_one_does_not():
+def test_a_rod_that_is_named_holds_and_a_thinner_one_does_not(monkeypatch):
+    """The thinner one is looked at where the present one is worst, and nowhere else."""
+    searched = []
+    monkeypatch.setattr(judge, "extremum_reached", lambda motion, *given: searched.append(motion) or extremum_reached(motion, *given))
     for made, *_ in posts():
         made = type("Heavy", (made,), {"load": Force("P", (0.0, -25 * kN))})
         machine = made()
+        searched.clear()
         words = next(each.sentence for each in told_by(machine, "ram") if each.rule == "buckling")
         size = number(r"a (?:rod|stage) of (\d+(?:\.\d+)?) mm holds", words, mm)
         if size is None:
@@ -263,6 +268,7 @@ def test_a_rod_that_is_named_holds_and_a_thinner_one_does_not():
         name = "ram.bore_2" if "ram.bore_2" in made.plan.table.spellings else "ram.rod"
         (holds,) = machine.replaced(**{name: size}).answers([most(buckling("ram")) <= 1.0])
         thinner = max(each for each in chosen_series().rods if each < size * (1 - 1e-9))
+        assert thinner not in {motion.designs[name] for motion in searched if motion.reached.size > 1} - {machine[name]}
         (fails,) = machine.replaced(**{name: thinner}).answers([most(buckling("ram")) <= 1.0])
         assert holds.ok and not fails.ok, words
 

@@ -549,7 +549,11 @@ def test_numbers_load_nothing_heavy():
 
 
 def test_list_loads_no_machine():
-    program = "import sys; from linkage.cli import main; main(['list']); print('loaded', *sys.modules)"
+    """NumPy comes after the number of its threads is set: what users set counts, else one."""
+    program = (
+        "import os, sys; os.environ.pop('OMP_NUM_THREADS', None); from linkage.cli import main; sys.argv = ['hydrolinkage', 'list'];"
+        "main(); assert os.environ['OMP_NUM_THREADS'] == '1'; print('loaded', *sys.modules)"
+    )
     done = shell("-c", program, text=True)
     out, err = done.communicate()
     assert (done.returncode, err) == (0, "") and "three_point_hitch" in out

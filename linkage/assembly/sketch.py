@@ -57,8 +57,8 @@ def places_at(plan: Plan, strokes: Mapping[str, float]) -> tuple[dict[str, Place
 def finite_places(plan: Plan, inputs: Mapping[str, Numbers], strokes: Mapping[str, float]) -> dict[str, Place]:
     """Return where all points are [m]; AssemblyError where they cannot be assembled."""
     with np.errstate(all="ignore"):
-        reading = plan.read(inputs)
-    return {name: finite_place(plan, name, reading, f"at {strokes_text(plan, strokes)}") for name in plan.points}
+        reading, where = plan.read(inputs), f"at {strokes_text(plan, strokes)}"
+    return {name: finite_place(plan, name, reading, where) for name in plan.points}
 
 
 @np.errstate(all="ignore")

@@ -167,10 +167,11 @@ class Members:
                 require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
         for _, coordinate in member.coordinates():
             self._check_terms(coordinate, "length", f"{self.title}: {name} = {member}")
-        for angle in (each for part in self.with_parts(name) for each in part.in_radians()):
+        parts = self.with_parts(name)
+        for angle in (each for part in parts for each in part.in_radians()):
             self._check_terms(angle, "angle", f"{self.title}: {name} = {member}")
         member.examine(self.members, self.title)
-        for part in self.with_parts(name):
+        for part in parts:
             for length in part.lengths():
                 if isinstance(length, Number) and not length.number > 0.0:
                     raise DefinitionError(f"{self.title}: {name} = {member}: the length {length.number:.6g} m is not positive.")

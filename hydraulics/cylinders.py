@@ -286,6 +286,11 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def works_both(self) -> bool:
         return self.side == "both"
 
+    def turns(self, members: NamedMembers) -> bool:
+        held = [line for line in circuits_among(members) if line.kind_in(members) == "held"]
+        on = [(line.name, each.side) for line in held for ram, each in line.filling(members) if same(ram, self)]
+        return self.works_both or len({name for name, _ in on}) == len({side for _, side in on}) == 2
+
     def area_in(self, motion: Poses, sense: Array) -> Array:
         size = self.sized(motion)
         if size.works == "both":
@@ -1376,10 +1381,16 @@ class Circuit(OnLines, HasVerdicts):
         names = ", ".join(map(label, self.references))
         return f"[{names}]" if len(self.references) > 1 else names
 
+    def joined(self, members: NamedMembers) -> tuple[ForceElement, ...]:
+        return self.members(members) if self.kind_in(members) == "held" and self.tie(members) is None else ()
+
     def tie(self, members: NamedMembers) -> Tie | None:
-        """Return how its pressure acts where it is given by itself, and a load case shuts it."""
-        is_kept = self._is_shut and self.kind_open(members) == "given"
-        return Tie(self.name, self.pressure_shares(members), held=True) if is_kept else None
+        """Return how its pressure acts where it is given by itself, and a load case shuts it: beside a pump's line it joins that."""
+        if not self._is_shut or self.kind_open(members) != "given":
+            return None
+        beside = [line for ram in self.members(members) for line, _ in lines_of(ram, members) if not same(line, self)]
+        kinds = {line.kind_open(members) for line in beside}
+        return None if "held" in kinds and "closed" not in kinds else Tie(self.name, self.pressure_shares(members), held=True)
 
     def rams(self, motion: Poses) -> tuple[Ram, ...]:
         """Return its cylinders, as the motion's class has them.

@@ -216,9 +216,6 @@ class LiftLine(Circuit):
     def relieves(self, plan: Declared) -> bool:
         return self.says("relief", plan.members) is not None
 
-    def joined(self, members: NamedMembers) -> tuple[ForceElement, ...]:
-        return self.members(members) if self.kind_in(members) == "held" and self.tie(members) is None else ()
-
     def tie(self, members: NamedMembers) -> Tie | None:
         """Return how its pressure acts on its cylinders, where a closed line has another side of one of them."""
         own = self.members(members)

@@ -109,9 +109,8 @@ class TwoPoint(ForceElement):
         """Return, of a holding member, its thrust at one unit of pressure [m2] as the equations of forces write it."""
         return self.area_in(written, np.ones(()))
 
-    @property
-    def works_both(self) -> bool:
-        """Whether a holding member works with another area while it pulls than while it pushes."""
+    def turns(self, members: Mapping[str, Member]) -> bool:
+        """Return whether a holding member works with another area while it pulls than while it pushes; the class's members by name."""
         return False
 
     @by_speeds

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial, reduce
 from itertools import permutations, product
-from operator import attrgetter
+from operator import methodcaller
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -49,11 +49,8 @@ class PressureLine:
     """How its pressure acts on them; None where each acts as it works."""
     steady: float = 0.0
     """How a single cylinder's length follows its stroke, where it is driven in proportion to that and to no other; else 0."""
-
-    @property
-    def changes_shares(self) -> bool:
-        """Whether its cylinders carry other shares while it pulls than while it pushes: several, one of which works with both sides."""
-        return self.tie is None and len(self.cylinders) > 1 and any(each.works_both for each in self.cylinders)
+    changes_shares: bool = False
+    """Whether its cylinders carry other shares while it pulls than while it pushes: several, one of which works with both sides."""
 
 
 @dataclass(frozen=True)
@@ -163,7 +160,8 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
             remedy = f"Give each a circuit of its own, LiftCircuit({line_names(apart[:1])}, pressure=...)"
             raise DefinitionError(f"{plan.title}: {what}: one pressure cannot hold several strokes. {remedy}.")
     steady = [steady_rate(plan, line, stroke, tie is not None) for (line, stroke), tie in zip(pairs, tied, strict=True)]
-    taking = ((line, stroke, tie, rate) for (line, stroke), tie, rate in zip(pairs, tied, steady, strict=True))
+    turns = [tie is None and len(line) > 1 and line[0].turns(plan.members) for line, tie in zip(lines, tied, strict=True)]
+    taking = ((line, stroke, tie, rate, each) for (line, stroke), tie, rate, each in zip(pairs, tied, steady, turns, strict=True))
     return Holders(tuple(PressureLine(*each) for each in taking), closed)
 
 
@@ -248,7 +246,8 @@ def joined_lines(plan: Plan, elements: Sequence[ForceElement], ties: Sequence[Ti
         on_it = [line for line in lines if any(is_among(each, members) for each in line)]
         if len(on_it) > 1:
             lines = [line for line in lines if line not in on_it]
-            lines.append(tuple(sorted((each for line in on_it for each in line), key=attrgetter("works_both"), reverse=True)))
+            joined = (each for line in on_it for each in line)
+            lines.append(tuple(sorted(joined, key=methodcaller("turns", plan.members), reverse=True)))
     return lines
 
 
@@ -464,7 +463,7 @@ def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
         return [poses.flattened(share_in(line.tie, each, poses.motion)) for each in line.cylinders]
     if len(line.cylinders) == 1:
         return [np.ones(poses.count)]
-    if not any(each.works_both for each in line.cylinders):
+    if not line.changes_shares:
         return [poses.flattened(each.area_in(poses.motion, np.ones(()))) for each in line.cylinders]
     growth = [poses.growth(*each.ends, line.stroke) for each in line.cylinders]
     senses = [poses.full(elementwise(np.sign, (rate * growth[0],)) * way) for rate in growth]

@@ -27,6 +27,7 @@ from hydraulics import (
 from linkage import (
     LEFT,
     RIGHT,
+    Acting,
     Crank,
     DefinitionError,
     Dyad,
@@ -322,7 +323,9 @@ def shared(seed):
             ends = Pump(200 * bar), Tank(draw.uniform(5, 30) * bar) if kind == "tank" else Pump(200 * bar)
             members |= {f"line{arm}{side}": OilLine(*on, ends[side]) for side, on in enumerate(joined)}
         arms.append((kind, rams))
-    return made(base=Mechanism, **members), arms
+    lines = [name for name, each in members.items() if isinstance(each, OilLine)]
+    parked = dict(parked=LoadCase("parked", shut=lines)) if lines else {}
+    return made(base=Mechanism, **members, **parked), arms
 
 
 @for_all("seed", (4, 5), slow=(*range(4), *range(6, 20)))
@@ -356,6 +359,12 @@ def test_rams_of_one_line_have_its_pressure_on_the_side_that_it_fills(seed):
             sides = [(line, chamber.side) for line in lines for chamber in line.chambers if label(chamber.cylinder) == ram]
             parts = [given[lines.index(line)] * (size.push_area if side == "piston" else -size.pull_area) for line, side in sides]
             assert_allclose(sum(parts), each, rtol=1e-9, atol=1e-3)
+        shut = [line.line_pressure(motion, Acting(case="parked")) for line in lines]
+        for ram, size in zip(rams, sizes, strict=True):  # whatever the pumps and tanks, it is held by the side that the load presses on
+            sides = [(line, chamber.side) for line in lines for chamber in line.chambers if label(chamber.cylinder) == ram]
+            parts = [shut[lines.index(line)] * (size.push_area if side == "piston" else -size.pull_area) for line, side in sides]
+            assert_allclose(sum(parts), members[ram].thrust(motion, case="parked"), rtol=1e-9, atol=1e-3)
+        assert np.all((np.min(shut, axis=0) > -1e-3) | np.isnan(shut[0]))
         assert kind == "tank" or np.all((np.min(given, axis=0) > -1e-3) | np.isnan(given[0]))
         way = machine.sweep(S=101, R=0.1) if stroke == "S" else machine.sweep(S=0.1, R=101)
         oil = np.ptp(lines[0].oil(way))

@@ -73,9 +73,10 @@ def own_paragraphs(machine: type[Mechanism]) -> list[str]:
 
 
 def own_texts(machine: type[Mechanism]) -> list[str]:
-    """Return all that a class says in its own words, which a catalogue may have in another language: name, prose, notes."""
+    """Return all that a class says in its own words, which a catalogue may have in another language: names, prose, notes."""
     classes = [each for each in machine.__mro__ if issubclass(each, Mechanism) and each is not Mechanism]
-    found = [machine.plan.heading, *(text for each in classes for text in (*own_paragraphs(each), *comments_in(each).values()))]
+    found = [machine.plan.heading, *(case.title for name, case in machine.plan.of_kind(LoadCase).items() if case.title not in (name, ""))]
+    found += [text for each in classes for text in (*own_paragraphs(each), *comments_in(each).values())]
     return [*dict.fromkeys(text for text in found if any(letter.isalpha() for letter in text))]
 
 

@@ -16,7 +16,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, speakers, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..quantities import Quantity
-from ..reports import At, Run, column_requests, is_column, motion_over, results, run_words, runs_of
+from ..reports import At, Run, case_title, column_requests, is_column, motion_over, results, run_words, runs_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import UNITS, show
@@ -226,5 +226,5 @@ class ReportSubject:
     def case_words(self, name: str) -> str:
         """Return the title of a load case, with its name where sentences use that."""
         known = self.machine.plan.of_kind(LoadCase).get(name, self.judge.acting.case)
-        label = known.label if isinstance(known, LoadCase) else said("own loads") if name == PLAIN_CASE else name
+        label = case_title(known) if isinstance(known, LoadCase) else said("own loads") if name == PLAIN_CASE else name
         return label if label == name or len(self.judge.cases) == 1 else f"{label} ({name})"

@@ -51,7 +51,10 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
     word = said("{kept} of {all} rules kept", kept=kept, all=len(judged)) if judged else said("no rules declared")
     if silent:
         word = said_of(silent, "{rules}, {n} says nothing", "{rules}, {n} say nothing", rules=word)
-    mark = Mark(False if kept + silent < len(judged) else None if silent or not judged else True, word)
+    passed = sum(each.ok is False for each in limited)
+    if passed:
+        word = said_of(passed, "{rules}, {n} limit is passed", "{rules}, {n} limits are passed", rules=word)
+    mark = Mark(False if broken else None if silent or not judged else True, word)
     return shown, mark, found, "; ".join(dict.fromkeys(broken))
 
 

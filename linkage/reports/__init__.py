@@ -19,6 +19,7 @@ from .runs import (
     NOTHING,
     At,
     Run,
+    case_title,
     first_stroke,
     in_case_words,
     motion_over,

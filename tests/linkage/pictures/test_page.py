@@ -1213,7 +1213,7 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
             assert isinstance(rows["B_x"], int)
             shown.settle()
             said = shown("document.getElementById('curve').textContent")
-            assert ("in the case half" in said) is (case == "half") and f"{over}, place" in said
+            assert ("load case: half" in said) is (case == "half") and f"{over}, place" in said
         for over, places in (("down", 2), ("up", 2)):  # a place in a verdict is gone to on its path, with its case
             shown.slide('[data-stroke="S"]', 500)
             where = shown.tab.locator("#groups li", has_text=f"over {over}").locator("a.place").first

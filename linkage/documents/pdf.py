@@ -12,7 +12,7 @@ from matplotlib import get_data_path
 
 from ..disk import replacing
 from ..errors import DefinitionError
-from ..formulas.typeset import boxes, rough_width
+from ..formulas.typeset import SIGNS, boxes, rough_width
 from ..formulas.typst import typst_math
 from ..language import said
 from .breaking import LONGEST, readable
@@ -79,13 +79,21 @@ def block_data(is_pair: bool, row: Sequence[Block], captions: dict[int, str]) ->
         case Equality(number, steps):
             sides = readable(steps)
             longest = max(rough_width(piece) for pieces in sides for piece in pieces)
-            math = " = ".join(" ".join(map(typst_math, pieces)) for pieces in sides)
+            math = " = ".join(in_lines([*map(typst_math, pieces)]) for pieces in sides)
             return {"kind": "equation", "number": number, "math": math, "size": LONGEST / max(LONGEST, longest)}
     drawn = [
         {"svg": picture_svg(each), "width": each.size[0], "caption": captions.get(id(each), each.caption)}
         for each in row if isinstance(each, Illustration)
     ]  # fmt: skip
     return {"kind": "pictures", "columns": 2 if is_pair else 1, "pictures": drawn}
+
+
+def in_lines(pieces: Sequence[str]) -> str:
+    """Return pieces of a formula in Typst's math, which breaks a line behind signs of operation alone: an empty one stands elsewhere."""
+    found = pieces[0]
+    for piece in pieces[1:]:
+        found += f" {piece}" if piece[0] in SIGNS and found[-1] not in ",;" else f' class("relation", "") {piece}'
+    return found
 
 
 def cell_data(value: Cell) -> str | JSON:

@@ -24,6 +24,8 @@ OPERATORS = {
 }  # fmt: skip
 NAMES = {"operatorname": "name", "mathit": "word", "mathrm": "name", "text": "name", "mathbf": "name", "mathtt": "name"}
 FENCES = {"lvert": "|", "rvert": "|", "{": "{", "}": "}", "lfloor": "⌊", "rfloor": "⌋", "lceil": "⌈", "rceil": "⌉", ".": ""}
+SIGNS = "+−·=×<>≤≥"
+"""Signs of sums, products and comparisons."""
 SPACES = {",": 0.17, ":": 0.22, ";": 0.28, "quad": 1.0, " ": 0.3, "!": 0.0}
 
 
@@ -99,7 +101,7 @@ def breakable(box: Box) -> list[Box]:
     cut: list[list[Box]] = [[]]
     for part in box.parts:
         match part, cut[-1]:
-            case Sign("operator", text), [_, *others] as before if text in "+−·=×<>≤≥":
+            case Sign("operator", text), [_, *others] as before if text in SIGNS:
                 if others or not isinstance(before[0], Sign) or before[0].kind != "operator":
                     cut.append([])
         cut[-1].append(part)
@@ -120,7 +122,7 @@ def rough_width(box: Box) -> float:
         case Sign("space", text):
             return float(text)
         case Sign(kind, text):
-            return (1.2 if kind == "operator" and text in "+−·×=<>≤≥" else 0.5) * len(text)
+            return (1.2 if kind == "operator" and text in SIGNS else 0.5) * len(text)
         case BoxRow(parts):
             return sum(map(rough_width, parts))
         case Fraction(over, under):

@@ -47,7 +47,7 @@ from linkage.documents.assumptions import STANDARD
 from linkage.documents.breaking import LONGEST, formula_pieces
 from linkage.documents.calculation import calculated
 from linkage.documents.checks import closed_walks
-from linkage.documents.content import Illustration, Section, TableBlock
+from linkage.documents.content import Equality, Illustration, Section, TableBlock
 from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_blocked
 from linkage.documents.html import html_text
 from linkage.documents.inputs import dimension_table, member_rows, plain_words
@@ -560,6 +560,15 @@ def test_a_long_word_breaks_inside_the_margins():
     word = "Hydraulikzylinderkolbenstangenfuehrungsbuchse" * 4
     page = words_of(replace(shown(), title=word, block=TitleBlock(number=word, client=word, prepared=word)))[0]
     assert "".join(text for text, *_ in page).count("Kolbenstange".lower()) >= 12 and not beyond_the_margins(page)
+
+
+@needs_poppler
+def test_a_long_formula_breaks_inside_the_margins():
+    """Behind its commas, and in front of the stroke of a quotient in one line: signs at which Typst breaks none."""
+    listed, term = ", ".join([r"\overrightarrow{AB}^{\mathrm{crane}}"] * 40), r" \cdot ".join([r"L_{AB}^{\mathrm{crane}}"] * 19)
+    steps = "x", rf"\operatorname{{TurnV}}\left({listed}\right)", rf"\frac{{{term}}}{{{term}}}", "1"
+    pages = words_of(replace(shown(), sections=(Section("Notes", (Equality(1, steps),)),)))
+    assert sum(word.count("crane") for page in pages for word, *_ in page) == 78 and not any(map(beyond_the_margins, pages))
 
 
 @needs_poppler

@@ -246,7 +246,7 @@ def test_a_colour_without_an_arrow_has_no_key():
 def test_a_heading_is_parted_between_strokes():
     telehandler = SHIPPED["levelled_telehandler"].load()()
     figure = plot(telehandler, at=dict(lift=(0.0, 0.7)))
-    assert figure.get_suptitle().splitlines()[1:] == ["tilt = 0 mm"]
+    assert figure.get_suptitle().splitlines()[1:] == ["extend = 1500 mm, tilt = 0 mm"]
     paths = plot(telehandler)  # two: what is held stands along each
     assert [ax.get_xlabel() for ax in paths.axes] == ["lift, mm; extend = 0 mm, tilt = 0 mm", "extend, mm; lift = 300 mm, tilt = 0 mm"]
     check_texts(paths)

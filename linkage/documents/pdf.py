@@ -79,7 +79,7 @@ def block_data(is_pair: bool, row: Sequence[Block], captions: dict[int, str]) ->
         case Equality(number, steps):
             sides = readable(steps)
             longest = max(rough_width(piece) for pieces in sides for piece in pieces)
-            math = " = ".join(in_lines([*map(typst_math, pieces)]) for pieces in sides)
+            math = " = ".join(breaking_math([*map(typst_math, pieces)]) for pieces in sides)
             return {"kind": "equation", "number": number, "math": math, "size": LONGEST / max(LONGEST, longest)}
     drawn = [
         {"svg": picture_svg(each), "width": each.size[0], "caption": captions.get(id(each), each.caption)}
@@ -88,7 +88,7 @@ def block_data(is_pair: bool, row: Sequence[Block], captions: dict[int, str]) ->
     return {"kind": "pictures", "columns": 2 if is_pair else 1, "pictures": drawn}
 
 
-def in_lines(pieces: Sequence[str]) -> str:
+def breaking_math(pieces: Sequence[str]) -> str:
     """Return pieces of a formula in Typst's math, which breaks a line behind signs of operation alone: an empty one stands elsewhere."""
     found = pieces[0]
     for piece in pieces[1:]:

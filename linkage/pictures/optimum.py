@@ -61,7 +61,8 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
         ax.set_title(stroke_words(after.plan, name, float(after.strokes[name][pose])), fontsize=style.TEXT, color=style.MUTED, loc="right")
     held = StrokeAxis.of(after).held
     write_title(figure, after.plan.heading, said("at {place}", place=held) if held else "")
-    legend_row(axes[0], [*look_keys([FAINT, STRONG]), Line2D([], [], color=style.ACCENT, linewidth=1.4)], ["before", "after", "moved, mm"])
+    keys = [*look_keys([FAINT, STRONG]), Line2D([], [], color=style.ACCENT, linewidth=1.4)]
+    legend_row(axes[0], keys, [said("before"), said("after"), said("moved, mm")])
     return figure
 
 
@@ -129,7 +130,8 @@ def plot_optimum(optimum: Optimum) -> Figure:
     for ax, course in zip(cells, courses, strict=True):
         course_panel(ax, problem, *course)
     lines = [Line2D([], [], color=colour, linewidth=width) for colour, width in (BEFORE, AFTER)]
-    figure.legend(lines, ["before", "after"], loc="upper right", ncols=2, frameon=False, fontsize=style.TEXT, labelcolor=style.INK)
+    texts = [said("before"), said("after")]
+    figure.legend(lines, texts, loc="upper right", ncols=2, frameon=False, fontsize=style.TEXT, labelcolor=style.INK)
     return figure
 
 

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import ensure, known_name, require_type
+from ..language import heading_of, said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Leaf
 from ..program import FloatArray
@@ -51,8 +52,10 @@ def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[s
         unit = unit_or_none((units or {}).get(band.quantity, band.unit), where="units")
         limits = [limit_on(each, partial(is_same, found, band)) for each in found.conditions]
         band_panel(ax, along, band, unit, [each for each in limits if each is not None])
-    good = f"; {share_words(found.yield_rate)} are good" if found.conditions else ""
-    text = fill(f"{found.count} machines with {words}{good}", int(LETTERS * figure.get_figwidth()))
+    text = said("{count} machines with {tolerances}", count=found.count, tolerances=words)
+    if found.conditions:
+        text = said("{machines}; {share} are good", machines=text, share=share_words(found.yield_rate))
+    text = fill(text, int(LETTERS * figure.get_figwidth()))
     legend = figure.legend(
         handles=cells[0].get_legend_handles_labels()[0], title=text, loc="outside lower left", ncols=4, alignment="left",
         fontsize=style.SMALL, title_fontsize=style.SMALL, frameon=False, labelcolor=style.INK,
@@ -78,19 +81,21 @@ def band_panel(ax: Axes, along: StrokeAxis, band: Band, unit: str, limits: Seque
         return np.asarray((values - band.nominal * narrow) / factor(shown_in(unit)))
 
     low, high = drawn(band.low), drawn(band.high)
-    ax.fill_between(at, low, high, color=style.CURVE, alpha=0.12, linewidth=0, zorder=2.0, label="worst case")
+    ax.fill_between(at, low, high, color=style.CURVE, alpha=0.12, linewidth=0, zorder=2.0, label=said("worst case"))
     for edge in (low, high):
         ax.plot(at, edge, color=style.CURVE, linewidth=style.THIN, alpha=0.6, zorder=2.5)
     outside = sorted(band.percentiles)
     for least, most in zip(outside[: len(outside) // 2], outside[::-1], strict=False):
         lower, upper = drawn(band.percentiles[least]), drawn(band.percentiles[most])
-        ax.fill_between(at, lower, upper, color=style.CURVE, alpha=0.30, linewidth=0, zorder=3.0, label=f"{least:g} to {most:g} %")
-    middle, word = (band.percentiles[50.0], "median") if 50.0 in band.percentiles else (band.mean, "mean")
+        share = said("{low} to {high} %", low=f"{least:g}", high=f"{most:g}")
+        ax.fill_between(at, lower, upper, color=style.CURVE, alpha=0.30, linewidth=0, zorder=3.0, label=share)
+    middle, word = (band.percentiles[50.0], said("median")) if 50.0 in band.percentiles else (band.mean, said("mean"))
     ax.plot(at, drawn(middle), color=style.CURVE, linewidth=style.BOLD, zorder=5.0, label=word)
-    ax.plot(at, drawn(band.nominal), color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="nominal")
+    ax.plot(at, drawn(band.nominal), color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label=said("nominal"))
     air = 0.12 * float(np.nanmax(high) - np.nanmin(low)) or 1.0
-    text = band.quantity + (", deviation from nominal" if narrow else "")
-    heading = fill(typeset(f"{text}, {unit_sign(unit)}" if unit else text), WIDEST)
+    text = heading_of(band.quantity)
+    text = said("{quantity}, deviation from nominal", quantity=text) if narrow else text
+    heading = fill(typeset(f"{text}, {translated(unit_sign(unit))}" if unit else text), WIDEST)
     stroke_panel(ax, along, heading, (float(np.nanmin(low)) - air, float(np.nanmax(high)) + air))
     for limit in limits:  # the panel keeps its range, widened by as much again at most
         line = np.broadcast_to(drawn(limit.value), at.shape)
@@ -121,7 +126,7 @@ def plot_zone(machine: Mechanism, found: Zone, unit: str = "") -> Figure:
         ax.plot(along.values, each.drawn, color=style.CURVE, linewidth=style.BOLD, zorder=5.0)
     if found.quantity in machine.plan.members:
         now = Column(found.quantity, motion[found.quantity], unit)
-        ax.plot(along.values, now.drawn, color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="as it is set")
+        ax.plot(along.values, now.drawn, color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label=said("as it is set"))
         ax.legend(loc="best", frameon=False, fontsize=style.SMALL, labelcolor=style.INK)
     stroke_panel(ax, along, low.heading, axis_range(Column(found.quantity, np.concatenate([found.low, found.high]), unit)))
     return figure
@@ -140,7 +145,7 @@ def plot_tornado(found: Tornado) -> Figure:
     require_type("", found, Tornado, "has no bars; give the result of tornado(...)")
     bars = [bar for bar in found.bars if bar.length > 0.0][:MOST] or list(found.bars[:1])
     figure, (ax,) = panels((7.6, ROW * len(bars) + 1.9), 1, w_pad=0.12, h_pad=0.12)
-    scale, unit = factor(shown_in(found.unit)), f", {unit_sign(found.unit)}" if found.unit else ""
+    scale, unit = factor(shown_in(found.unit)), f", {translated(unit_sign(found.unit))}" if found.unit else ""
     for place, bar in enumerate(bars):
         for change, linear, colour in ((bar.low, bar.linear_low, style.CURVE), (bar.high, bar.linear_high, style.ACCENT)):
             if np.isfinite(change):
@@ -155,13 +160,14 @@ def plot_tornado(found: Tornado) -> Figure:
     ax.set_xlim(-reach, reach)
     ax.grid(False, axis="y")
     ax.xaxis.set_major_locator(MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]))
-    ax.set_xlabel(typeset(f"change of {found.quantity}{unit}"), fontsize=style.TEXT, color=style.MUTED)
-    at = f"{found.quantity} = {show(found.nominal, found.unit, 5)} at {found.at}"
+    ax.set_xlabel(typeset(said("change of {quantity}", quantity=heading_of(found.quantity)) + unit), fontsize=style.TEXT, color=style.MUTED)
+    value = f"{heading_of(found.quantity)} = {show(found.nominal, found.unit, 5)}"
+    at = said("{quantity} at {place}", quantity=value, place=found.at)
     ax.set_title(typeset(at), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=22)
-    said = f"sigma of all together {show(found.sigma, found.unit, 3)}; at the right each one's share of the variance"
-    ax.annotate(typeset(said), (0.0, 1.0), (0, 7), "axes fraction", textcoords="offset points", fontsize=style.SMALL, color=style.MUTED)
-    names = {"at the lower limit": style.CURVE, "at the upper limit": style.ACCENT}
+    sigma = said("sigma of all together {sigma}; at the right each one's share of the variance", sigma=show(found.sigma, found.unit, 3))
+    ax.annotate(typeset(sigma), (0.0, 1.0), (0, 7), "axes fraction", textcoords="offset points", fontsize=style.SMALL, color=style.MUTED)
+    names = {said("at the lower limit"): style.CURVE, said("at the upper limit"): style.ACCENT}
     handles: list[object] = [ax.barh([np.nan], [0.0], color=colour, label=text) for text, colour in names.items()]
-    handles.append(ax.plot([], [], "|", color=style.INK, markersize=9, markeredgewidth=1.6, label="as the gradient tells")[0])
+    handles.append(ax.plot([], [], "|", color=style.INK, markersize=9, markeredgewidth=1.6, label=said("as the gradient tells"))[0])
     figure.legend(handles=handles, loc="outside lower right", ncols=3, fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
     return figure

@@ -21,12 +21,17 @@ from linkage import (
     Weight,
     deg,
     draw,
+    least,
+    mm,
+    optimise,
     plot,
 )
 from linkage.language import language
+from linkage.pictures import plot_bands, plot_tornado, plot_zone
 from linkage.pictures.scene import Scene
 from linkage.pictures.sheet import RoundValues
 from linkage.pictures.strokes import unreached_words
+from linkage.study import monte_carlo, tornado, zone
 from linkage.units import unit_system
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -53,6 +58,11 @@ def words(figure):
     return [text.get_text() for text in figure.findobj(Text) if text.get_text()]
 
 
+def searched():
+    """Return a search of one design."""
+    return optimise(ThreePointHitch(), maximise=least("tilt"), vary={"OB": (0.29, 0.31)}, starts=1, limit=20)
+
+
 PICTURES = {
     "poses": lambda: draw(ThreePointHitch(), at=dict(S=[0.0, 0.2]), path=["F", "G"]),
     "forces": lambda: draw(ThreePointHitch(), forces=True),
@@ -62,15 +72,22 @@ PICTURES = {
     "designs": lambda: draw([MowerLift(), MowerLift()]),
     "modes": lambda: draw(MowerLift().assemblies()),
     "curves": lambda: plot(MowerLift()),
+    "bands": lambda: plot_bands(monte_carlo(ThreePointHitch(), ["tilt"], {"OB": 2 * mm}, count=16, S=[0.0, 0.1, 0.2])),
+    "tornado": lambda: plot_tornado(tornado(ThreePointHitch(), "tilt", {"OB": 2 * mm, "CD": 1 * mm}, S=0.1)),
+}
+SLOW_PICTURES = {
+    "before and after": lambda: draw(searched()),
+    "courses": lambda: plot(searched()),
+    "zone": lambda: plot_zone(ThreePointHitch(), zone(ThreePointHitch(), "tilt", {"MK": (0.86, 0.9)}, S=[0.0, 0.1])),
 }
 OF_MEMBERS = {"Three", "point", "hitch", "Mower", "lift", "bar", "load", "holder", "max", "kgf"}
 """Words that are names: of machines, members and columns."""
 
 
-@for_all("name", PICTURES)
+@for_all("name", PICTURES, slow=SLOW_PICTURES)
 def test_pictures_speak_russian(name):
     with language("ru"):
-        figure = PICTURES[name]()
+        figure = (PICTURES | SLOW_PICTURES)[name]()
     code = {text.get_text() for text in figure.findobj(Text) if text.get_fontfamily() == ["monospace"]}
     said = " ".join(each for each in words(figure) if each not in code and "\N{MINUS SIGN}" not in each)
     english = set(re.findall(r"\b[A-Za-z]{3,}\b", said)) - OF_MEMBERS

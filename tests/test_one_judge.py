@@ -78,6 +78,7 @@ def found_in(name, source):
 LISTED = {
     "linkage/mechanism.py": "names of load cases, which may not be a word of the framework",
     "linkage/cli/settings.py": "names of load cases, for the error of an unknown one",
+    "linkage/documents/inputs.py": "titles of load cases, which a catalogue has in another language",
     "linkage/motion/requests.py": "the order of directions",
     "hydraulics/shut.py": "names of load cases, for those that shut a line",
 }

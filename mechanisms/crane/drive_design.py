@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from linkage import DefinitionError, Mechanism, StudyError, at, deg, integral, kN, least, mm, most, optimise, ratio, ref, x, y
+from linkage import DefinitionError, Mechanism, StudyError, at, deg, integral, kN, least, mm, most, optimise, ref, x, y
 from linkage.errors import cited, ensure, one_word
 from linkage.frozen import immutable
 from linkage.motion.measures import Measure
@@ -23,15 +23,12 @@ from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
 from linkage.units import require_number
 
+from .drive_report import FOLDING, LIFTING, OPENING
 from .drives import AngledBellCrankArmDrive, ArmDrive, BoomDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
 from .duty import DriveCylinders, DriveDuty, clipped
 
-GIVEN = -ref("lifts") * ratio("length", wrt="phi")
-"""What the boom's drive gives [N m], a quantity over its poses."""
-FOLDS = -ref("folds") * ratio("length", wrt="psi")
-"""What the arm's drive gives while it folds the arm [N m], against -M_l1."""
-OPENS = ref("opens") * ratio("length", wrt="psi")
-"""What the arm's drive gives while it opens the arm [N m], against M_l2."""
+LETTERS = (LIFTING, "M_g"), (FOLDING, "|M_g1|"), (OPENING, "M_g2")
+"""The source's letters of the moments given."""
 
 
 @immutable
@@ -151,8 +148,8 @@ def judged(
                 text = str(error)
                 if isinstance(error, InfeasibleError):
                     text = f"no pins found keep everything, the nearest miss {'; '.join(each.sentence for each in error.relaxations)}."
-                for quantity, letters in ((GIVEN, "M_g"), (FOLDS, "|M_g1|"), (OPENS, "M_g2")):
-                    text = text.replace(str(quantity), letters)
+                for movement, letters in LETTERS:
+                    text = text.replace(str(movement.given), letters)
                 size = replace(size, reason=text)
         found.append(size)
     return tuple(found)
@@ -211,8 +208,8 @@ def design_boom_drive(
     expected = f"a length below the boom's {duty.l_c:.4g} m is expected, such as 300 * mm"
     require_number("r_3_min", r_3_min, expected, above=0.0, below=duty.l_c, kind="length")
     require_number("lowest_pin", lowest_pin, "a share of the closed length is expected, 0 to 1; the source has 0.5", least=0.0, most=1.0)
-    pin, over = CLEARANCES[clearance], GIVEN - ref("M_l")
-    least_of = {"area": integral(over), "ratio": most(GIVEN / ref("M_l")), "difference": most(over)}
+    pin, share = CLEARANCES[clearance], LIFTING.given / LIFTING.asked
+    least_of = {"area": integral(LIFTING.surplus), "ratio": most(share), "difference": most(LIFTING.surplus)}
 
     numbers = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
 
@@ -224,7 +221,7 @@ def design_boom_drive(
 
     kept = [
         at("length", phi=duty.phi_k) == at("l"), at("length", phi=duty.phi_0) == at(ref("l") + ref("S")),
-        least(GIVEN / ref("M_l")) >= 1.0, at("r_2") >= lowest_pin * at("l"),
+        least(share) >= 1.0, at("r_2") >= lowest_pin * at("l"),
     ]  # fmt: skip
 
     def task(bore: float, rod: float) -> Mapping[str, Any]:
@@ -340,14 +337,14 @@ class ArmRules:
         found = [
             at("length", psi=closed) == at("l"),
             at("length", psi=out) == at(ref("l") + ref("S")),
-            least(OPENS - ref("M_l2") + FINE) >= FINE,
-            least(FOLDS + ref("M_l1") + FINE) >= FINE,
+            least(OPENING.surplus + FINE) >= FINE,
+            least(FOLDING.given + ref("M_l1") + FINE) >= FINE,
         ]
         if issubclass(machine, DirectArmDrive):
             return [*found, at("r_2") <= duty.l_c]
         counts = clipped(1.0 + (ref("psi") - duty.phi_0) / STEP, 0.0, 1.0) if self.excess_from == "phi_0" else 1.0
         found += [
-            most((OPENS - ref("M_l2")) * counts) <= (self.excess - 1.0) * duty.K_A,
+            most(OPENING.surplus * counts) <= (self.excess - 1.0) * duty.K_A,
             at(x("L") + (ref("r_2") - ref("r_3")) * np.cos(ref("alpha_20")), psi=psi_0) >= at("r_4"),
             at("r_2") <= at(ref("r_1") + ref("r_3") - ref("r_4")),
             at(ref("r_4") + ref("r_5")) <= duty.l_c,

@@ -5,17 +5,17 @@ Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 
-from linkage import Column, DefinitionError, Featured, Motion, Verdict, least, most, ratio
+from linkage import Column, DefinitionError, Featured, Motion, Verdict, least, most, ratio, ref
 from linkage.errors import ensure
 from linkage.language import noted, said, translated
-from linkage.motion import Answer, MotionFunction
-from linkage.program import FloatArray
+from linkage.motion import Answer, Request
+from linkage.quantities import Quantity
 from linkage.units import show
 
 from ..paper import answers_over
@@ -26,24 +26,19 @@ SHORT = 1e-6
 
 @dataclass(frozen=True)
 class Movement:
-    """One movement of a drive: its name, the moment it gives and the one asked of it [N m], both of a motion and not negative."""
+    """One movement of a drive: its name, the moment it gives and the one asked of it [N m], neither of them negative.
+
+    What is given is F p n times d(length)/d(angle), by virtual work: the boom's lever h and the arm's h I. (2.29); (2.44), (2.52)
+    """
 
     name: str
-    given: Callable[[Motion], FloatArray]
-    asked: Callable[[Motion], FloatArray]
+    given: Request
+    asked: Quantity
 
-    def surplus(self, motion: Motion) -> FloatArray:
-        """Return the moment given less the one asked for, shape (...) [N m]."""
-        return np.asarray(self.given(motion) - self.asked(motion))
-
-
-def moment_given(motion: Motion, force: str) -> FloatArray:
-    """Return the moment that the drive gives about its joint, shape (...) [N m], positive where the angle grows.
-
-    `force` names what its cylinder then gives, F p n [N], positive where it pushes: by virtual work that force times
-    d(length)/d(angle), which is the boom's lever h and the arm's h I. (2.29); (2.44), (2.52)
-    """
-    return np.asarray(motion[force] * motion.ratio("length", wrt=angle_of(motion)))
+    @property
+    def surplus(self) -> Request:
+        """The moment given less the one asked for [N m]."""
+        return self.given - self.asked
 
 
 def angle_of(motion: Motion) -> str:
@@ -54,9 +49,9 @@ def angle_of(motion: Motion) -> str:
     raise DefinitionError(f"{motion.plan.title} is no drive that its angle drives; give a motion of a BoomDrive or an ArmDrive.")
 
 
-LIFTING = Movement(noted("lifting"), lambda motion: -moment_given(motion, "lifts"), lambda motion: motion["M_l"])
-FOLDING = Movement(noted("folding"), lambda motion: -moment_given(motion, "folds"), lambda motion: -motion["M_l1"])
-OPENING = Movement(noted("opening"), lambda motion: moment_given(motion, "opens"), lambda motion: motion["M_l2"])
+LIFTING = Movement(noted("lifting"), -ref("lifts") * ratio("length", wrt="phi"), ref("M_l"))
+FOLDING = Movement(noted("folding"), -ref("folds") * ratio("length", wrt="psi"), -ref("M_l1"))
+OPENING = Movement(noted("opening"), ref("opens") * ratio("length", wrt="psi"), ref("M_l2"))
 
 
 MOVEMENTS: Mapping[str, tuple[Movement, ...]] = MappingProxyType({"phi": (LIFTING,), "psi": (FOLDING, OPENING)})
@@ -69,9 +64,8 @@ def drive_columns(motion: Motion) -> list[Column]:
     found = [Column(angle, motion.strokes[angle], "deg", 2, angle), Column(noted("length"), motion["length"], "mm", 1, "length")]
     found.append(Column(noted("lever"), np.abs(motion.ratio("length")), "mm", 1, np.abs(ratio("length"))))
     for each in MOVEMENTS[angle]:
-        asked, given = each.asked(motion), each.given(motion)
-        moments = {noted("asked"): asked, noted("given"): given, noted("over"): given - asked}
-        found += [Column(f"{each.name}: {what}", values, "kNm", 2) for what, values in moments.items()]
+        moments: dict[str, Quantity | Request] = {noted("asked"): each.asked, noted("given"): each.given, noted("over"): each.surplus}
+        found += [Column(f"{each.name}: {what}", np.asarray(motion.value(asked)), "kNm", 2, asked) for what, asked in moments.items()]
     return found
 
 
@@ -117,8 +111,7 @@ def worst_movements(motion: Motion) -> list[WorstMovement]:
     ensure(not motion._design_shape, f"A drive is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
     found = []
     for each in MOVEMENTS[angle_of(motion)]:
-        surplus = MotionFunction(each.surplus)
-        low, high, asked = answers_over(motion, [least(surplus), most(surplus), most(MotionFunction(each.asked))])
+        low, high, asked = answers_over(motion, [least(each.surplus), most(each.surplus), most(each.asked)])
         found.append(WorstMovement(each, low, high, float(asked.value)))
     return found
 

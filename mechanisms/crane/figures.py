@@ -178,7 +178,7 @@ def title_of(drive: BoomDrive | DrivenArm) -> str:
 def one_movement(ax: Axes, motion: Motion, worst: WorstMovement) -> None:
     """Draw one movement's moments over the angle."""
     name, movement = angle_of(motion), worst.movement
-    angle, given, asked = motion.strokes[name] / deg, movement.given(motion) / kN, movement.asked(motion) / kN
+    angle, given, asked = motion.strokes[name] / deg, motion[movement.given] / kN, motion.value(movement.asked) / kN
     ax.fill_between(angle, asked, given, where=given >= asked, color=style.CURVE, alpha=0.16, linewidth=0, zorder=3.0, label="over")
     if worst.short:
         ax.fill_between(angle, asked, given, where=given < asked, color=style.ACCENT, alpha=0.35, linewidth=0, zorder=3.0, label="missing")
@@ -199,14 +199,14 @@ def marked(ax: Axes, motion: Motion, movement: Movement, found: Answer, word: st
     """Mark where most or least is over, as a line between the two curves with its size: above them, or below them."""
     name, above = angle_of(motion), word == "most"
     there = motion.moved(found.strokes)
-    at, asked, given = (float(each) for each in (found.strokes[name] / deg, movement.asked(there) / kN, movement.given(there) / kN))
+    at, asked, given = (float(each) for each in (found.strokes[name] / deg, there.value(movement.asked) / kN, there[movement.given] / kN))
     colour = style.CURVE if above else style.ACCENT
     ax.plot([at, at], [asked, given], color=colour, linewidth=1.2, zorder=7.0)
     dot(ax, [at, at], [asked, given], colour, 5.0)
     (low, high), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     place = (at - low) / (high - low)
     side = "left" if place < AT_EDGE else "right" if place > 1.0 - AT_EDGE else "center"
-    moment = (movement.given if above else movement.asked)(motion) / kN
+    moment = motion[movement.given if above else movement.asked] / kN
     angle = motion.strokes[name] / deg
     rise = np.abs(moment - np.interp(at, angle, moment))[np.abs(angle - at) < AT_EDGE * (high - low)]
     off = 8.0 + PANEL * float(rise.max(initial=0.0)) / (top - bottom)

@@ -8,6 +8,7 @@ from scipy.optimize import minimize
 
 from linkage import RIGHT, DefinitionError, Dyad, OnLink, Weight, deg, plot, ratio
 from linkage.motion import lowest
+from linkage.reports.live_columns import column_requests
 from linkage.study import Target, settings_for
 from mechanisms.crane import drive_figure
 from mechanisms.crane.drive_design import ArmRules, arm_drive_front, design_arm_drive, design_boom_drive
@@ -118,7 +119,7 @@ def test_analysis_3b():
     assert_allclose(motion["length"], 1.324 + 0.9 * k, rtol=1e-12)
     assert_allclose(motion.ratio("alpha_1"), transfer, rtol=1e-10)
     assert_allclose(motion.ratio("length") / motion.ratio("gamma"), h, rtol=1e-10)
-    assert_allclose(OPENING.given(motion), moment, rtol=1e-10)
+    assert_allclose(motion[OPENING.given], moment, rtol=1e-10)
     assert_allclose(by_cylinder.ratio("psi") * motion.ratio("length"), 0.9, rtol=1e-10)
 
 
@@ -129,6 +130,12 @@ def test_a_drive_by_its_cylinder_is_shown_as_any_machine(machine):
     table = {column.name: column for column in machine().columns(motion)}
     assert_allclose(table[machine().featured().column].values, motion["psi"], rtol=0, atol=0)
     plot(machine())
+
+
+@for_all("machine", [ArmDrive], slow=[BoomDrive, DirectArmDrive])
+def test_a_page_works_out_the_moments_of_a_drive_by_itself(machine):
+    found = column_requests(machine(), machine().working(5))
+    assert {name: why for name, (_, _, why) in found.items() if why} == {}
 
 
 @for_all(
@@ -240,9 +247,9 @@ def test_moments_are_those_of_the_cylinder_in_equilibrium(machine):
     cases = {"folding": "case_1", "opening": "case_2", "lifting": None}
     for movement in MOVEMENTS[angle_of(motion)]:
         with np.errstate(divide="ignore", invalid="ignore"):
-            expected = movement.given(motion) / movement.asked(motion)
+            expected = motion[movement.given] / motion[movement.asked]
         found = drive.circuit.reserve(motion, case=cases[movement.name])
-        asked = movement.asked(motion) > 1.0
+        asked = motion[movement.asked] > 1.0
         assert asked.sum() >= 2
         assert_allclose(found[asked], expected[asked], rtol=1e-10)
 
@@ -620,8 +627,8 @@ def test_an_arm_is_asked_for_one_moment_at_a_time(machine):
     motion = drive.working(4001)
     shares = []
     for each in MOVEMENTS[angle_of(motion)]:
-        asked = each.asked(motion)
-        shares.append(np.min(each.given(motion)[asked > 1.0] / asked[asked > 1.0]))
+        asked = motion[each.asked]
+        shares.append(np.min(motion[each.given][asked > 1.0] / asked[asked > 1.0]))
     (found,) = (each.answer for each in told_by(drive, "circuit") if each.rule == "lifting")
     assert found.value == pytest.approx(min(shares), rel=1e-6) and found.case in ("case_1", "case_2")
 

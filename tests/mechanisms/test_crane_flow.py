@@ -94,7 +94,7 @@ def test_drives_on_their_own_are_those_of_the_crane(machine):
     assert_allclose(boom.at(phi=phi)["length"], crane.at(phi=phi, psi=1.0, t=0.0).distance("A", "B"), rtol=1e-12)
     ends = machine.fold.ends
     assert_allclose(arm.at(psi=psi)["length"], crane.at(phi=1.0, psi=psi, t=0.0).distance(*ends), rtol=1e-12)
-    given = {each.name: each.given(arm.at(psi=psi)) for each in MOVEMENTS["psi"]}
+    given = {each.name: arm.at(psi=psi)[each.given] for each in MOVEMENTS["psi"]}
     assert_allclose(arm_moment(crane, psi), (-given["folding"], given["opening"]), rtol=1e-9)
 
 

@@ -396,12 +396,9 @@ TASKS: Mapping[str, Callable[..., TaskResult]] = {
     "survey": survey_task, "zone": zone_task, "tolerance": tolerance_task, "tornado": tornado_task, "settings": settings_task,
 }  # fmt: skip
 """The studies by the sections that ask for them."""
+TABLES = ".csv", ".jsonl"
 TASK_OUTPUTS: Mapping[str, Sequence[str]] = {
-    "survey": (".csv", ".jsonl"),
-    "zone": (".csv", ".jsonl", *study_file.PICTURE_SUFFIXES),
-    "tolerance": (".csv", ".jsonl", *study_file.PICTURE_SUFFIXES),
-    "tornado": (".csv", ".jsonl", *study_file.PICTURE_SUFFIXES),
-    "settings": (".csv", ".jsonl"),
+    name: TABLES if name in ("survey", "settings") else (*TABLES, *study_file.PICTURE_SUFFIXES) for name in TASKS
 }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import partial, reduce
 from typing import Any, TypeVar
 
 import numpy as np
@@ -234,9 +234,9 @@ def monte_carlo(
     order = tuple(sorted({float(each) for each in percentiles}))
     way = RunOptions(one_word("backend", backend, ("numpy", "numba")), threads)
     designs = sampled_designs(machine, named, count, method, seed)
-    counted = Counted(machine.judge(poses.base), machine.judge().cases)
-    judged = {title: counted.worst_of(each) for title, each in asked.items()}
-    split = [(condition, each) for condition in conditions for each in counted.split(condition)]
+    counted = partial(situations, machine.judge(poses.base), machine.judge().cases)
+    judged = {title: worst_of(each, counted) for title, each in asked.items()}
+    split = [(condition, each) for condition in conditions for each in in_situations(condition, counted)]
     with unwarned(), np.errstate(all="ignore"):
         run = MonteCarloRun(poses, machine.replaced(**designs), count, way, order)
         run.measure(judged, [each for _, each in split])
@@ -284,31 +284,26 @@ class WorstOf(Measure):
         return str(self.each[0])
 
 
-@dataclass(frozen=True)
-class Counted:
-    """The situations that count, as `machine.answers` counts them: those of a judge of the poses, in the load cases that occur."""
+def situations(judge: Judge, cases: Sequence[str], leaves: Sequence[Leaf]) -> list[Acting]:
+    """Return the situations in which a judge looks at requests, each once, in the load cases that occur: as `machine.answers` counts."""
+    requests = [leaf.quantity for leaf in leaves if isinstance(leaf.quantity, Request)]
+    found = dict.fromkeys(acting for request in requests for acting in judge.actings(request))
+    return [each for each in found if (each.case or PLAIN_CASE) in cases]
 
-    judge: Judge
-    cases: Sequence[str]
 
-    def actings(self, leaves: Sequence[Leaf]) -> list[Acting]:
-        """Return the situations in which requests are judged, each once."""
-        requests = [leaf.quantity for leaf in leaves if isinstance(leaf.quantity, Request)]
-        found = dict.fromkeys(acting for request in requests for acting in self.judge.actings(request))
-        return [each for each in found if (each.case or PLAIN_CASE) in self.cases]
+def worst_of(quantity: Measured, counted: Callable[[Sequence[Leaf]], list[Acting]]) -> Measured:
+    """Return a greatest or least value over all situations that count; anything else as it is."""
+    if not (isinstance(quantity, Leaf) and quantity.sense):
+        return quantity
+    found = [in_situation(quantity, acting) for acting in counted([quantity])]
+    return WorstOf(tuple(leaf for each in found for leaf in each.leaves)) if found else quantity
 
-    def worst_of(self, quantity: Measured) -> Measured:
-        """Return a greatest or least value over all situations; anything else as it is."""
-        if not (isinstance(quantity, Leaf) and quantity.sense):
-            return quantity
-        found = [in_situation(quantity, acting) for acting in self.actings([quantity])]
-        return WorstOf(tuple(leaf for each in found for leaf in each.leaves)) if found else quantity
 
-    def split(self, condition: Constraint) -> list[Constraint]:
-        """Return a condition in every situation: what is asked at rest alone goes with all that moves."""
-        known = self.actings(condition.margin.leaves)
-        among = [each for each in known if each.direction is not None] or known or [Acting()]
-        return [replace(condition, left=in_situation(condition.left, each), right=in_situation(condition.right, each)) for each in among]
+def in_situations(condition: Constraint, counted: Callable[[Sequence[Leaf]], list[Acting]]) -> list[Constraint]:
+    """Return a condition in every situation that counts: what is asked at rest alone goes with all that moves."""
+    known = counted(condition.margin.leaves)
+    among = [each for each in known if each.direction is not None] or known or [Acting()]
+    return [replace(condition, left=in_situation(condition.left, each), right=in_situation(condition.right, each)) for each in among]
 
 
 def leaves_measured(asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> list[Leaf]:

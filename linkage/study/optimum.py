@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice, product
 from math import prod
 from operator import itemgetter
@@ -720,19 +721,22 @@ class EvaluatedDesigns:
         """At which of them a local search may begin: they are reached, and the objective has a value."""
         return np.asarray((self.reached == 1.0) & np.isfinite(self.value))
 
+    @cached_property
+    def ranks(self) -> tuple[FloatArray, FloatArray]:
+        """What orders them, shapes (m,): their misses, zero where they keep all, then the objective, less where it is better."""
+        short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
+        return np.where(short <= 1e-9, 0.0, short), np.where(np.isfinite(self.value), self.sense * self.value, np.inf)
+
     @property
     def order(self) -> Index:
-        """The designs, the best first: those that keep all, by the objective; then by their misses."""
-        worth = np.where(np.isfinite(self.value), self.sense * self.value, np.inf)
-        short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
-        return np.lexsort((worth, np.where(short <= 1e-9, 0.0, short)))
+        """The designs, the best first."""
+        return np.lexsort(self.ranks[::-1])
 
     @property
     def best(self) -> tuple[float, float]:
-        """The rank of the best one: its misses, then the objective."""
-        place = self.order[0]
-        short = float(np.nan_to_num(self.missing[place], nan=1e9, posinf=1e9)) + 1e9 * (1.0 - float(self.reached[place]))
-        return (short if short > 1e-9 else 0.0), float(np.nan_to_num(self.sense * self.value[place], nan=np.inf))
+        """The rank of the best one."""
+        short, worth = self.ranks
+        return float(short[self.order[0]]), float(worth[self.order[0]])
 
 
 def tried_names(space: Space) -> list[str]:

@@ -38,7 +38,8 @@ class Movement:
     @property
     def surplus(self) -> Request:
         """The moment given less the one asked for [N m]."""
-        return self.given - self.asked
+        found: Request = self.given - self.asked
+        return found
 
 
 def angle_of(motion: Motion) -> str:

@@ -199,31 +199,25 @@ def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: DrivenArm) -> Cra
     if made is None:
         what = f"{arm.plan.title} is no arm drive of the four schemes"
         raise DefinitionError(f"{what}; the whole crane takes an ArmDrive or a DirectArmDrive.")
-    bars = [f"r_{k}" for k in range(1, count + 1)]
-    own = {name: skeleton[name] for name in CraneSkeleton.plan.defaults if name in made.plan.defaults}
-    lever = {"lug": 180 * deg + arm["alpha_20"] - arm["psi_0"], "bend": arm["delta"]} if isinstance(arm, ArmDrive) else {}
-    numbers: dict[str, Any] = {
-        **own,
-        **{f"boom_{name.replace('_', '')}": boom[name] for name in bars[:4]},
-        **{f"arm_{name.replace('_', '')}": number_of(arm, name) for name in bars},
-        **lever, **cylinder_numbers("lift", boom), **cylinder_numbers("fold", arm),
-        "extend.stroke": float(skeleton["l_t"]), "extend.closed": float(skeleton["l_p"]) - Crane.plan.defaults["root_pin"],
-    }  # fmt: skip
-    return made(**numbers)
+    numbers: dict[str, Any] = {name: skeleton[name] for name in CraneSkeleton.plan.defaults if name in made.plan.defaults}
+    for drive, of in ((boom, names_of("boom", "lift", 4)), (arm, names_of("arm", "fold", count))):
+        numbers |= {name: number_of(drive, own) for name, own in of.items()}
+    if isinstance(arm, ArmDrive):
+        numbers |= {"lug": 180 * deg + arm["alpha_20"] - arm["psi_0"], "bend": arm["delta"]}
+    closed = float(skeleton["l_p"]) - Crane.plan.defaults["root_pin"]
+    return made(**numbers, **{"extend.stroke": float(skeleton["l_t"]), "extend.closed": closed})
+
+
+def names_of(side: str, cylinder: str, bars: int) -> dict[str, str]:
+    """Return the names of a drive's lengths and cylinder in the whole crane, each with its name in the drive on its own."""
+    own = {f"{side}_r{k}": f"r_{k}" for k in range(1, bars + 1)}
+    own |= {f"{cylinder}.{name}": letter for name, letter in (("bore", "D"), ("rod", "d"), ("stroke", "S"), ("closed", "l"))}
+    return own | {f"{cylinder}_line.pressure": "p", f"{cylinder}_line.mechanical_efficiency": "n"}
 
 
 def number_of(drive: BoomDrive | DrivenArm, name: str) -> float:
     """Return a number of a drive, a design variable or a value that follows from some."""
     return float(drive[name]) if name in drive.dimensions else float(drive.working(2)[name][0])
-
-
-def cylinder_numbers(name: str, drive: BoomDrive | DrivenArm) -> dict[str, float]:
-    """Return a drive's cylinder, its pressure and its efficiency as the whole crane calls them."""
-    return {
-        f"{name}.bore": drive["D"], f"{name}.rod": drive["d"],
-        f"{name}.stroke": drive["S"], f"{name}.closed": number_of(drive, "l"),
-        f"{name}_line.pressure": drive["p"], f"{name}_line.mechanical_efficiency": drive["n"],
-    }  # fmt: skip
 
 
 def boom_drive_of(crane: Crane) -> BoomDrive:
@@ -241,7 +235,7 @@ def boom_drive_of(crane: Crane) -> BoomDrive:
     """
     duty = duty_of(crane)
     asked = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
-    return BoomDrive(**asked, **own_numbers(crane, "lift"), **{f"r_{k}": float(crane[f"boom_r{k}"]) for k in range(1, 5)})
+    return BoomDrive(**asked, **own_numbers(crane, names_of("boom", "lift", 4)))
 
 
 def arm_drive_of(crane: Crane) -> DrivenArm:
@@ -260,16 +254,12 @@ def arm_drive_of(crane: Crane) -> DrivenArm:
     duty = duty_of(crane)
     drive, count = next((drive, count) for drive, made, count in CRANES if isinstance(crane, made))
     asked = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
-    bars = {f"r_{k}": float(crane[f"arm_r{k}"]) for k in range(1, count + 1)}
-    turned = {}
     if issubclass(drive, ArmDrive):
-        turned = {"alpha_20": float(crane["lug"]) - 180 * deg + duty.psi_0, "delta": float(crane["bend"])}
-    return drive(**asked, **own_numbers(crane, "fold"), **bars, **turned)
+        asked |= {"alpha_20": float(crane["lug"]) - 180 * deg + duty.psi_0, "delta": float(crane["bend"])}
+    return drive(**asked, **own_numbers(crane, names_of("arm", "fold", count)))
 
 
-def own_numbers(crane: Crane, name: str) -> dict[str, float]:
-    """Return a cylinder of the whole crane as its drive on its own calls it; its closed length as f_0 of (2.36), with f_1 = 0."""
-    bore, rod, stroke, closed = (float(crane[f"{name}.{each}"]) for each in ("bore", "rod", "stroke", "closed"))
-    line = f"{name}_line"
-    given = {"p": float(crane[f"{line}.pressure"]), "n": float(crane[f"{line}.mechanical_efficiency"])}
-    return {"D": bore, "d": rod, "S": stroke, "f_0": closed - stroke, "f_1": 0.0, **given}
+def own_numbers(crane: Crane, names: Mapping[str, str]) -> dict[str, float]:
+    """Return a drive's numbers as it calls them on its own; its closed length l as f_0 of (2.36), with f_1 = 0."""
+    found = {own: float(crane[name]) for name, own in names.items()}
+    return found | {"f_0": found.pop("l") - found["S"], "f_1": 0.0}

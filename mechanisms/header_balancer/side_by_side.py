@@ -2,28 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
-from linkage import Crank, Dimension, Featured, Ground, LoadCase, Mechanism, OnLink, Stroke, Weight, distance, y
-from linkage.quantities import Quantity
+from linkage import Crank, Dimension, Featured, Ground, LoadCase, Mechanism, OnLink, Stroke, Weight, distance, ref, y
+from linkage.quantities import Member
 from linkage.units import deg, kg, kgf_cm2, litre, mm
 
 from .criteria import HEADERS
 
 
-def towards_shoe(height: Any, O_y: Any, L_OR: float) -> Quantity:
-    """Return the direction O -> R [rad] in which the shoe stands at a height [m], R to the right of O. (4)-(16)"""
-    drop = height - O_y
-    found: Quantity = np.arctan2(drop, np.sqrt(L_OR * L_OR - drop * drop))
-    return found
-
-
-def block() -> AccumulatorBlock:
-    """Return the block of one header: each line has its own."""
-    return AccumulatorBlock([Accumulator(4 * litre, 50 * kgf_cm2), Accumulator(4 * litre, 25 * kgf_cm2)], isothermal, 101325.0)
+def header_members(number: int, case: str) -> dict[str, Member]:
+    """Return the members of one header, with its number behind their names, and the load case in which it alone is there."""
+    own, gas = HEADERS[number], [Accumulator(4 * litre, 50 * kgf_cm2), Accumulator(4 * litre, 25 * kgf_cm2)]
+    R, B, F, H, lift = (f"{name}{number}" for name in ("R", "B", "F", "H", "lift"))
+    drop = ref("height") - y("O")
+    towards_shoe = np.arctan2(drop, np.sqrt(own["L_OR"] * own["L_OR"] - drop * drop))  # O -> R, R to the right of O; (4)-(16)
+    return {
+        R: Crank("O", angle=towards_shoe, **{f"O{R}": own["L_OR"]}),
+        B: OnLink("O", R, **{f"O{B}": "L_OB", f"{R}O{B}": ref("shift") - own["BOR"]}),
+        F: OnLink("O", R, **{f"O{F}": 0.488774, f"{R}O{F}": 5.491118 * deg - own["BOR"]}),  # the feeder's centre of gravity
+        H: OnLink("O", R, **{f"O{H}": own["OG2"], f"{R}O{H}": own["BOG2"] - own["BOR"]}),  # the header's
+        f"feeder{number}": Weight(F, mass=1500 * kg),
+        f"header{number}": Weight(H, mass=own["m2"]),
+        lift: Cylinder("A", B, bore="bore", rod="rod", count=2),
+        f"line{number}": FloatCircuit(
+            lift, AccumulatorBlock(gas, isothermal, 101325.0), charge_pressure=f"charge{number}", at=0.0, seal_friction="seals"
+        ),
+        case: LoadCase(only=[f"feeder{number}", f"header{number}", f"line{number}"]),
+        f"length{number}": distance("A", B),
+    }
 
 
 class ThreeHeaders(Mechanism):
@@ -46,34 +54,6 @@ class ThreeHeaders(Mechanism):
     charge3 = Dimension(HEADERS[3]["charge"], unit="kgf/cm2")
     bore, rod = Dimension(63 * mm, unit="mm"), Dimension(40 * mm, unit="mm")
 
-    R1 = Crank(O, OR1=HEADERS[1]["L_OR"], angle=towards_shoe(height, y(O), HEADERS[1]["L_OR"]))
-    B1 = OnLink(O, R1, OB1=L_OB, R1OB1=shift - HEADERS[1]["BOR"])
-    F1 = OnLink(O, R1, OF1=0.488774, R1OF1=5.491118 * deg - HEADERS[1]["BOR"])  # the feeder's centre of gravity
-    H1 = OnLink(O, R1, OH1=HEADERS[1]["OG2"], R1OH1=HEADERS[1]["BOG2"] - HEADERS[1]["BOR"])  # the header's
-    feeder1, header1 = Weight(F1, mass=1500 * kg), Weight(H1, mass=HEADERS[1]["m2"])
-    lift1 = Cylinder(A, B1, bore=bore, rod=rod, count=2)
-    line1 = FloatCircuit(lift1, block(), charge_pressure=charge1, at=0.0, seal_friction=seals)
-    first = LoadCase(only=["feeder1", "header1", "line1"])
-    length1 = distance(A, B1)
-
-    R2 = Crank(O, OR2=HEADERS[2]["L_OR"], angle=towards_shoe(height, y(O), HEADERS[2]["L_OR"]))
-    B2 = OnLink(O, R2, OB2=L_OB, R2OB2=shift - HEADERS[2]["BOR"])
-    F2 = OnLink(O, R2, OF2=0.488774, R2OF2=5.491118 * deg - HEADERS[2]["BOR"])
-    H2 = OnLink(O, R2, OH2=HEADERS[2]["OG2"], R2OH2=HEADERS[2]["BOG2"] - HEADERS[2]["BOR"])
-    feeder2, header2 = Weight(F2, mass=1500 * kg), Weight(H2, mass=HEADERS[2]["m2"])
-    lift2 = Cylinder(A, B2, bore=bore, rod=rod, count=2)
-    line2 = FloatCircuit(lift2, block(), charge_pressure=charge2, at=0.0, seal_friction=seals)
-    second = LoadCase(only=["feeder2", "header2", "line2"])
-    length2 = distance(A, B2)
-
-    R3 = Crank(O, OR3=HEADERS[3]["L_OR"], angle=towards_shoe(height, y(O), HEADERS[3]["L_OR"]))
-    B3 = OnLink(O, R3, OB3=L_OB, R3OB3=shift - HEADERS[3]["BOR"])
-    F3 = OnLink(O, R3, OF3=0.488774, R3OF3=5.491118 * deg - HEADERS[3]["BOR"])
-    H3 = OnLink(O, R3, OH3=HEADERS[3]["OG2"], R3OH3=HEADERS[3]["BOG2"] - HEADERS[3]["BOR"])
-    feeder3, header3 = Weight(F3, mass=1500 * kg), Weight(H3, mass=HEADERS[3]["m2"])
-    lift3 = Cylinder(A, B3, bore=bore, rod=rod, count=2)
-    line3 = FloatCircuit(lift3, block(), charge_pressure=charge3, at=0.0, seal_friction=seals)
-    third = LoadCase(only=["feeder3", "header3", "line3"])
-    length3 = distance(A, B3)
+    locals().update(header_members(1, "first") | header_members(2, "second") | header_members(3, "third"))
 
     about = Featured("drive force", ["R1", "R2", "R3"])

@@ -546,6 +546,25 @@ def test_local_search_of_elastic_and_plain_agree_where_all_is_kept():
     assert Local(problem, (), unit, elastic=problem.constraints).run().missing == 0.0
 
 
+def test_of_two_conditions_in_conflict_those_give_way_that_may():
+    machine = Boom()
+    space = Space.of(machine, {"OB": (0.25, 0.35)})
+    problem = Problem(machine, [most(pressure("lift"))], conditions_of([TRAVEL >= 0.72, TRAVEL <= 0.66], machine), space)
+    low, high = problem.constraints
+    for may, travel in (([low], 0.66), ([high], 0.72), ([high, low], 0.66)):  # of both that which costs less of its size
+        end = Local(problem, (), np.array([0.5]), elastic=may).run()
+        assert_allclose(problem.evaluated(problem.dimensions_at(end.unit, ())).values_of(TRAVEL), travel, rtol=1e-6)
+
+
+def test_of_several_designs_each_says_how_much_of_it_is_reached():
+    machine = Boom()
+    problem = Problem(machine, [most("tilt")], [], Space.of(machine, {"OB": (0.05, 0.35)}))
+    look = problem.evaluated(problem.dimensions_at(np.array([[1.0], [0.2], [0.9]]), ()))
+    assert look.is_assembled.tolist() == [True, False, True] and look.reached[[0, 2]].tolist() == [1.0, 1.0]
+    alone = problem.machine_of(np.array([0.2]), ()).at(S=np.linspace(0.0, 0.25, 49), unreachable="nan").reached
+    assert look.reached[1] == pytest.approx(np.mean(alone)) and 0.0 < np.mean(alone) < 1.0
+
+
 # -- kept on the way ------------------------------------------------------------------------------------------------
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from linkage import Acting, ForceElement, LoadCase, Mechanism, Verdict
-from linkage.cli.command import CSV, EVERY, PICTURES, Command, lined_up, machine_options, option, picture, pose_options
+from linkage.cli.command import CSV, EVERY, PICTURES, Command, machine_options, option, picture, pose_options
 from linkage.cli.follow import ALONG, PAGE
 from linkage.cli.settings import CHECK, OVER, judged_code, judged_over, machine_of, motions_at, overs_of, print_verdicts, si_value
 from linkage.cli.table import Table, heading_words, write_table, write_tables
@@ -21,6 +21,7 @@ from linkage.language import noted, said
 from linkage.motion import Column, Judge, Motion, columns_of, least, stroke_measure
 from linkage.motion.limits import stroke_unit, timed_texts
 from linkage.quantities import Course, Reference, is_number
+from linkage.shown import text_columns
 from linkage.statics import LawRequest, elements_of, is_among, pull_direction
 from linkage.units import g0, parse, show
 
@@ -283,7 +284,7 @@ def print_cycle(options: Namespace) -> int:
             head = [*([""] if place else []), *([f"{words}:", ""] if words else [])]
             says = said("{pump} {sentence}", pump=cycle.pump, sentence=cycle.verdict.sentence)
             events = ["", *(str(event) for event in cycle.events)] if cycle.events else []
-            print(*head, says, "", *lined_up([line_heads(), *line_rows(cycle)]), "", *lined_up(energy_rows(cycle)), *events, sep="\n")
+            print(*head, says, "", text_columns([line_heads(), *line_rows(cycle)]), "", text_columns(energy_rows(cycle)), *events, sep="\n")
     if options.csv is not None:
         ensure(len(found) == 1, f"--csv {options.csv}: there are {len(found)} cycles; choose one, --over NAME.")
         write_table(cycle_columns(found[0][1]), options.csv)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, TypeVar
 Item = TypeVar("Item")
 
 
-def text_columns(rows: Sequence[Sequence[str]], left: Collection[int]) -> str:
-    """Return rows of cells as text in columns: those whose numbers are in `left` begin below each other, the others end so."""
-    sides = ["<" if number in left else ">" for number in range(len(rows[0]))]
+def text_columns(rows: Sequence[Sequence[str]], left: Collection[int] | None = None) -> str:
+    """Return rows of cells as text in columns: those whose numbers are in `left`, by default all, begin below each other, others end so."""
     sizes = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    sides = ["<" if left is None or number in left else ">" for number in range(len(sizes))]
     lines = ("  ".join(f"{cell:{side}{size}}" for cell, side, size in zip(row, sides, sizes, strict=True)) for row in rows)
     return "\n".join(line.rstrip() for line in lines)
 

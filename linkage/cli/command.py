@@ -155,13 +155,6 @@ def whole_number(text: str) -> int:
     return count
 
 
-def lined_up(rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield rows of text as lines whose cells start below each other."""
-    sizes = [max(map(len, cells)) for cells in zip(*rows, strict=True)]
-    for row in rows:
-        yield "  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True)).rstrip()
-
-
 # Where a picture goes: its path, checked before the work is done.
 
 PICTURES = (".png", ".svg", ".pdf")

@@ -18,8 +18,9 @@ from ..motion import Column, Motion, RequestLike, Target, stroke_measure
 from ..motion.measures import measure_of
 from ..program import FloatArray
 from ..quantities import x, y
+from ..shown import text_columns
 from ..units import UNITS, parse, parse_span, units_of
-from .command import COLUMNS, CSV, PICTURES, Command, lined_up, machine_options, option, picture, progress_bar, repeatable
+from .command import COLUMNS, CSV, PICTURES, Command, machine_options, option, picture, progress_bar, repeatable
 from .settings import FORCES, acting_of, columns_picked, machine_of, pair, parsed_over, plain_value, si_value
 from .table import write_table
 
@@ -243,4 +244,4 @@ def print_chart(field: WorkingField) -> None:
         cells = (f"{text.load_text(float(field.load[k, n]))} {text.letters.get(str(field.limiter[k, n]), '')}".strip() for n in text.across)
         rows.append([text.length_text(float(field.y[k])), *(cell or "-" for cell in cells)])
     print(text.title)
-    print(*lined_up(rows), *text.legend(), sep="\n")
+    print(text_columns(rows), *text.legend(), sep="\n")

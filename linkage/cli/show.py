@@ -16,7 +16,8 @@ from ..plan import spanning_name, strokes_text, written_out
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from ..reports.values import with_units
-from .command import Command, group, lined_up, machine_options, option, picture, picture_option, repeatable, whole_number
+from ..shown import text_columns
+from .command import Command, group, machine_options, option, picture, picture_option, repeatable, whole_number
 from .listing import wrapped
 from .settings import CHECK, OVER, judged_code, machine_of, overs_of, strokes_given
 
@@ -61,8 +62,8 @@ def show_command(options: Namespace) -> int:
         print(printed_equations(machine, options, at).latex())
         return 0
     plan = machine.plan
-    print_section(f"{type(machine).__name__}: strokes", lined_up(list(stroke_rows(machine))))
-    print_section("Design variables", lined_up(list(design_rows(machine))))
+    print_section(f"{type(machine).__name__}: strokes", text_columns([*stroke_rows(machine)]).splitlines())
+    print_section("Design variables", text_columns([*design_rows(machine)]).splitlines())
     names = plan.link_names  # the links and cylinders that bodies are: `boom.beam: boom.B boom.D`
     bodies = [f"{names[body.name]}: {body}" if body.name in names else str(body) for body in machine.links]
     bodies += [f"cylinder {spanning_name(plan, bar.P, bar.Q)}: {bar.P} {bar.Q}" for bar in plan.cylinders]

@@ -169,7 +169,8 @@ def swept_strokes(head: StudyHead, given: object) -> Keywords:
         if span is None:
             return name, amount_said(value, measures)
         low, high, *step = span
-        return name, np.arange(low, high + 0.5 * step[0], step[0]) if step else np.linspace(low, high, head.found.get("poses", 1))
+        by = np.copysign(step[0], high - low) if step else 0.0
+        return name, np.arange(low, high + 0.5 * by, by) if step else np.linspace(low, high, head.found.get("poses", 1))
 
     return dict(each_of(by_whole_names(given), values))
 
@@ -314,7 +315,8 @@ def zone_task(
         for part, value in setting_parts(name, each)
     ]
     least, most = float(np.nanmin(found.low, initial=np.inf)), float(np.nanmax(found.high, initial=-np.inf))
-    lines = [f"{plan.title}: {title} from {show(least, unit)} to {show(most, unit)} over the box.", *found.remarks]
+    says = f"from {show(least, unit)} to {show(most, unit)}" if least <= most else "has no value"
+    lines = [f"{plan.title}: {title} {says} over the box.", *found.remarks]
     columns = (*stroke_columns(plan, found.strokes), *ends, Column("reached", found.reached.ravel()), *settings)
     return TaskResult("\n  ".join(lines), columns, found, unit=unit)
 
@@ -385,10 +387,10 @@ def settings_task(
 ) -> TaskResult:
     """Look for the settings of a box that give wanted values."""
     found = settings_for(machine, vary, targets)
-    names = [each for name in (found.settings[0] if found.settings else ()) for each in coordinates(machine.plan, [name])]
+    names = coordinates(machine.plan, [*(found.settings[0] if found.settings else vary)])
     rows = [[part for name, value in each.items() for _, part in setting_parts(name, value)] for each in found.settings]
-    parts = zip(names, zip(*rows, strict=True), strict=True)
-    columns = [Column(name, np.array(part, float), unit_of(machine.plan, name)) for name, part in parts]
+    table = np.array(rows, float).reshape(-1, len(names))
+    columns = [Column(name, part, unit_of(machine.plan, name)) for name, part in zip(names, table.T, strict=True)]
     return TaskResult(str(found), tuple(columns), found, solved=found.met)
 
 

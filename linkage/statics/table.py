@@ -228,4 +228,4 @@ def pin_load(result: PinForces, joint: JointForce, force: float, place: Place, d
 def table_text(rows: Iterable[PinLoad]) -> str:
     """Return the table as aligned text."""
     cells = [max_headings(), *(row.cells for row in rows)]
-    return text_columns(cells, range(len(cells[0])))
+    return text_columns(cells)

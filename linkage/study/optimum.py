@@ -331,13 +331,14 @@ class Optimum(Shown):
             The file cannot be written.
         """
         plan, objective = self.problem.plan, self.problem.objectives[0]
-        unit = unit_of_measure(plan, objective)
-        headings = [heading_with_unit(name, unit_of(plan, name)) for name in tried_names(self.tried[0].space)]
+        units = [(name, unit_of(plan, name)) for name in tried_names(self.tried[0].space)]
+        units += [(str(objective), unit_of_measure(plan, objective)), ("missing", "")]
+        sizes = [factor(shown_in(unit)) for _, unit in units]
         with replacing_text(path) as stream:
             writer = csv.writer(stream)
-            writer.writerow(["stage", *headings, heading_with_unit(str(objective), unit), "missing"])
-            for row in tried_rows(plan, unit, self.tried):
-                writer.writerow("" if each != each else each if isinstance(each, str) else repr(each) for each in row)
+            writer.writerow(["stage", *(heading_with_unit(*each) for each in units)])
+            for stage, *row in tried_rows(self.tried):
+                writer.writerow([stage, *("" if each != each else repr(each / size) for each, size in zip(row, sizes, strict=True))])
 
     def designs_jsonl(self, path: Place) -> None:
         """Write every design that was looked at into a file of JSON lines, in SI; null where there is no value.
@@ -354,8 +355,8 @@ class Optimum(Shown):
         """
         names = [*tried_names(self.tried[0].space), "value", "missing"]
         with replacing_text(path) as stream:
-            for stage, *row in tried_rows(None, "", self.tried):
-                numbers = (each if isinstance(each, float) and np.isfinite(each) else None for each in row)
+            for stage, *row in tried_rows(self.tried):
+                numbers = (each if np.isfinite(each) else None for each in row)
                 stream.write(json.dumps({"stage": stage, **dict(zip(names, numbers, strict=True))}) + "\n")
 
 
@@ -749,19 +750,12 @@ def heading_with_unit(name: str, unit: str) -> str:
     return f"{name}, {shown_in(unit)}" if unit else name
 
 
-def tried_rows(plan: Plan | None, unit: str, tried: Sequence[EvaluatedDesigns]) -> Iterator[list[str | float]]:
-    """Yield a row for each design: its stage, its dimensions and its objective in their units, and the part missing of a condition.
-
-    Without a plan the dimensions are in SI.
-    """
-    space = tried[0].space
-    factors = [1.0 if plan is None else factor(shown_in(unit_of(plan, name))) for name in tried_names(space)]
+def tried_rows(tried: Sequence[EvaluatedDesigns]) -> Iterator[tuple[Any, ...]]:
+    """Yield a row for each design: its stage, its dimensions and its objective [SI], and the part missing of a condition."""
     for part in tried:
-        chosen = [value for (_, rows), row in zip(space.choices, part.combination, strict=True) for value in rows[row]]
-        values = space.values(part.unit).tolist()
-        for own, value, missing in zip(values, part.value.tolist(), part.missing.tolist(), strict=True):
-            settings = [each / size for each, size in zip((*own, *chosen), factors, strict=True)]
-            yield [part.stage, *settings, value / factor(shown_in(unit)), missing]
+        chosen = [value for (_, rows), row in zip(part.space.choices, part.combination, strict=True) for value in rows[row]]
+        for own, value, missing in zip(part.space.values(part.unit).tolist(), part.value.tolist(), part.missing.tolist(), strict=True):
+            yield part.stage, *own, *chosen, value, missing
 
 
 # What varied, what was sought and what must be kept, before and after.

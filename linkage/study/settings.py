@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, overload
 
 import numpy as np
@@ -142,26 +142,31 @@ def settings_for(
 
     identity = None if callable(quantity) else identity_of(machine.plan, quantity)
     known = ("settings", name, identity, target, low, high)
-    at, off, unique = roots_of(curve, low, high) if identity is None else recalled(pose.base, known, lambda: roots_of(curve, low, high))
-    lost = {root: why for root in unique if (why := why_not_assembled(machine.replaced(**{name: root})))}
-    kept = [root for root in unique if root not in lost]
+    at, off, spans = roots_of(curve, low, high) if identity is None else recalled(pose.base, known, lambda: roots_of(curve, low, high))
+    ends = dict.fromkeys(end for span in spans for end in span)
+    lost = {root: why for root in ends if (why := why_not_assembled(machine.replaced(**{name: root})))}
+    kept = [span for span in spans if lost.keys().isdisjoint(span)]
     unit = unit or ("" if callable(quantity) else measure_unit(machine.plan, least(quantity)))
     words = {"name": name, "what": words_of(quantity), "target": show(target, unit)}
     own = unit_of(machine.plan, name)
-    if not unique:
+    if not spans:
         return Settings(name, (), no_setting_words(words, own, unit, at, off + target))
-    found = said(" or ").join(show(root, own) for root in kept or unique)
+    shown = {end: show(end, own) for end in ends}
+    found = said(" or ").join(
+        shown[first] if first == last else said("{low} to {high}", low=shown[first], high=shown[last]) for first, last in kept or spans
+    )
     if kept:
-        return Settings(name, tuple(kept), said("{what} = {target} with {name} = {found}.", found=found, **words))
+        values = tuple(end for end in ends if any(end in span for span in kept))
+        return Settings(name, values, said("{what} = {target} with {name} = {found}.", found=found, **words))
     why = said(
         "{what} = {target} with {name} = {found}, which cannot be assembled over the whole stroke: {why}",
-        found=found, why=lost[unique[0]], **words,
+        found=found, why=next(iter(lost.values())), **words,
     )  # fmt: skip
     return Settings(name, (), why)
 
 
-def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray, list[float]]:
-    """Return the samples of a curve between two values, its values there, and its zeros."""
+def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatArray, list[tuple[float, float]]]:
+    """Return samples of a curve (n,), its values there (n,), and where it is zero: from where to where, mostly from one value to itself."""
     at = np.linspace(low, high, SAMPLES)
     off = curve(at)
     known = np.isfinite(off)
@@ -192,8 +197,12 @@ def roots_of(curve: Curve, low: float, high: float) -> tuple[FloatArray, FloatAr
     known = off[np.isfinite(off)]
     span, most = (float(np.ptp(each)) for each in (known, np.percentile(known, USUAL))) if known.size else (0.0, 0.0)
     span = min(span, POLES * most) or span
-    found = found[np.abs(curve(found)) <= max(TOUCH * span, 1e-13)]  # where it does not jump over zero
-    return at, off, found[np.diff(found, prepend=-np.inf) > 1e-9 * (high - low)].tolist()
+    touches = max(TOUCH * span, 1e-13)
+    found = found[np.abs(curve(found)) <= touches]  # where it does not jump over zero
+    found = found[np.diff(found, prepend=-np.inf) > 1e-9 * (high - low)]
+    apart = np.abs(curve(0.5 * (found[1:] + found[:-1]))) > touches  # else it is zero all the way from one to the next
+    starts, ends = (found[np.insert(apart, place, True)[: len(found)]] for place in (0, len(apart)))
+    return at, off, [*zip(starts.tolist(), ends.tolist(), strict=True)]
 
 
 def no_setting_words(words: Mapping[str, str], own: str, unit: str, at: FloatArray, value: FloatArray) -> str:
@@ -316,9 +325,8 @@ class Search:
         The settings are unit coordinates (m, k) with choices (m,).
         """
         machine = self.machine.replaced(**self.box.settings(unit, choice))
-        unique = {request.key: each.quantity for request, each in zip(self.bound, self.targets, strict=True)}
-        found = dict(zip(unique, self.poses.of_requests(machine, list(unique.values()), RunOptions("numpy")), strict=True))
-        columns = [found[request.key][:, place] for place, request in enumerate(self.bound)]
+        found = self.poses.of_requests(machine, [each.quantity for each in self.targets], RunOptions("numpy"))
+        columns = [values[:, place] for place, values in enumerate(found)]  # each target at a pose of its own
         return np.asarray((np.stack(columns, axis=1) - self.wanted) / self.scale)
 
     def slopes(self, unit: FloatArray, choice: Index) -> FloatArray:
@@ -327,12 +335,9 @@ class Search:
         plan, dimensions = machine.plan, dimensions_of(machine.plan, [*self.box.ranges])
         owners, signs = tuple(owner for owner, _ in dimensions), np.array([float(sign) for _, sign in dimensions])
         grid = self.poses.grid_at(machine)
-        found: dict[Hashable, FloatArray] = {}
-        for request in self.bound:
-            if request.key not in found:
-                kernel = BulkProgram.for_requests(plan, [slope(request, owners)]).kernel
-                found[request.key] = kernel(grid.flat, way=RunOptions("numpy"), size=grid.size).values
-        columns = [found[request.key][:, :, place] for place, request in enumerate(self.bound)]
+        kernel = BulkProgram.for_requests(plan, [slope(request, owners) for request in self.bound]).kernel
+        found = kernel(grid.flat, way=RunOptions("numpy"), size=grid.size).values.reshape(len(self.bound), len(owners), *grid.size)
+        columns = [values[..., place] for place, values in enumerate(found)]
         sides = np.array([high - low for low, high in self.box.ranges.values()])
         return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None] * sides)
 

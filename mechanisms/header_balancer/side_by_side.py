@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
@@ -16,13 +18,17 @@ def header_members(number: int, case: str) -> dict[str, Member]:
     """Return the members of one header, with its number behind their names, and the load case in which it alone is there."""
     own, gas = HEADERS[number], [Accumulator(4 * litre, 50 * kgf_cm2), Accumulator(4 * litre, 25 * kgf_cm2)]
     R, B, F, H, lift = (f"{name}{number}" for name in ("R", "B", "F", "H", "lift"))
-    drop = ref("height") - y("O")
+    drop: Any = ref("height") - y("O")
+    arm: dict[str, Any] = {f"O{R}": own["L_OR"]}
     towards_shoe = np.arctan2(drop, np.sqrt(own["L_OR"] * own["L_OR"] - drop * drop))  # O -> R, R to the right of O; (4)-(16)
+    on_link: dict[str, tuple[Any, Any]] = {  # the pin, and the centres of gravity of feeder and header: from O, and turned from OR
+        B: ("L_OB", ref("shift") - own["BOR"]),
+        F: (0.488774, 5.491118 * deg - own["BOR"]),
+        H: (own["OG2"], own["BOG2"] - own["BOR"]),
+    }
     return {
-        R: Crank("O", angle=towards_shoe, **{f"O{R}": own["L_OR"]}),
-        B: OnLink("O", R, **{f"O{B}": "L_OB", f"{R}O{B}": ref("shift") - own["BOR"]}),
-        F: OnLink("O", R, **{f"O{F}": 0.488774, f"{R}O{F}": 5.491118 * deg - own["BOR"]}),  # the feeder's centre of gravity
-        H: OnLink("O", R, **{f"O{H}": own["OG2"], f"{R}O{H}": own["BOG2"] - own["BOR"]}),  # the header's
+        R: Crank("O", angle=towards_shoe, **arm),
+        **{name: OnLink("O", R, **{f"O{name}": far, f"{R}O{name}": turned}) for name, (far, turned) in on_link.items()},
         f"feeder{number}": Weight(F, mass=1500 * kg),
         f"header{number}": Weight(H, mass=own["m2"]),
         lift: Cylinder("A", B, bore="bore", rod="rod", count=2),

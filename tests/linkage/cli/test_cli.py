@@ -20,9 +20,9 @@ from linkage import plugins
 from linkage.cli import Command, listing, main, option
 from linkage.cli import command as progress
 from linkage.cli import entry as commands
-from linkage.cli.command import lined_up
 from linkage.cli.machines import find
 from linkage.cli.settings import judged_over
+from linkage.shown import text_columns
 from tests.for_all import first_daily
 from tests.members import unpacked
 
@@ -529,7 +529,7 @@ def test_nothing_installed_is_said(said, monkeypatch):
 
 
 def test_rows_are_lined_up():
-    assert list(lined_up([("a", "1", ""), ("bcd", "20", "x")])) == ["a    1", "bcd  20  x"]
+    assert text_columns([("a", "1", ""), ("bcd", "20", "x")]) == "a    1\nbcd  20  x" and text_columns([]) == ""
 
 
 # -- as a process ------------------------------------------------------------------------------------------

@@ -632,6 +632,26 @@ def test_settings_that_are_nowhere_end_with_one(here, said):
     targets = ["at(lift, S=100 mm) == 80 deg"]
     """
     assert said("study", written(here, text))[0] == 1
+    lost = text.replace('OB = "1.0 to 1.1 m"', 'OB = "10 to 20 mm", A = [["150 mm", "900 mm"], ["160 mm", "900 mm"]]')
+    code, out, err = said("study", written(here, f'{lost}\n[outputs]\nsettings = "settings.csv"\n'))
+    assert (code, err) == (1, "") and out.startswith("No setting of OB, A that was looked at can be assembled at S = 100 mm.")
+    assert (here / "settings.csv").read_text().splitlines() == ['"OB, mm","A.x, mm","A.y, mm"']
+
+
+def test_a_zone_goes_down_a_stroke_in_steps_and_says_where_it_is_nowhere(here, said):
+    text = """
+    machine = "boom.toml"
+    [zone]
+    quantity = "lift"
+    vary = { OB = "1.0 to 1.1 m" }
+    strokes = { S = "100 to 0 mm in steps of 40 mm" }
+    [outputs]
+    zone = "zone.csv"
+    """
+    assert said("study", written(here, text))[0] == 0
+    assert numbers(here / "zone.csv")["S, mm"] == pytest.approx([100.0, 60.0, 20.0])
+    code, out, _ = said("study", written(here, text.replace("1.0 to 1.1 m", "10 to 20 mm")))
+    assert code == 0 and out.startswith("Boom: lift has no value over the box.\n  33 of 33 settings looked at")
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle, deg
+from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle, deg, ref, x
 from linkage.motion import each_at_its_stroke
 from linkage.study import Box, settings_for, zone
 from linkage.study.zone import SettingsBox, extremes
@@ -318,6 +318,16 @@ def test_no_setting_is_said():
     assert found.sentence.startswith("No MK between 400 mm and 2000 mm gives tilt = 100 deg: it can be assembled from 443.")
     nowhere = settings_for(hitch, "MK", "tilt", 0.0, between=(0.1, 0.2), unit="deg", S=0.1)
     assert "No MK between 100 mm and 200 mm can be assembled there" in nowhere.sentence
+
+
+def test_settings_without_end_are_told_by_their_ends():
+    """What does not hang on the setting, or not on a stretch of it, is met all along."""
+    there = {"between": (0.8, 1.0), "S": 0.1}
+    still = settings_for(ThreePointHitch(), "MK", x("A"), 0.2, **there)
+    assert (still.values, still.sentence) == ((0.8, 1.0), "x(A) = 200 mm with MK = 800 mm to 1000 mm.")
+    clipped = settings_for(ThreePointHitch(), "MK", np.maximum(ref("tilt"), 0.1), 0.1, **there)
+    edge = settings_for(ThreePointHitch(), "MK", "tilt", 0.1, **there).values[0]
+    assert clipped.values == (pytest.approx(edge, abs=2e-4), 1.0)
 
 
 def test_setting_beside_the_end_of_reach():

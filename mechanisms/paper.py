@@ -8,11 +8,12 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, TypeVar
 
 from hydraulics.inputs import not_negative, one_number, positive
-from linkage import Mechanism, Motion
+from linkage import ForceElement, Mechanism, Motion
 from linkage.cli.command import CSV, Option, option, picture_option, pose_options
 from linkage.cli.settings import CHECK, OVER, machine_of, pair, si_value
 from linkage.errors import DefinitionError, known_name, require_one_design
 from linkage.motion import Answer, Question, judge_along
+from linkage.statics import AnyMotion
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -61,6 +62,11 @@ def named_figure(figures: Mapping[str, Callable[[Machine], Figure]], name: str, 
     known_name("Figure", name, figures)
     require_one_design(machine.dimensions, f"{machine.plan.title}: a figure shows one design")
     return figures[name](machine)
+
+
+def own_loads(motion: AnyMotion, *but: str) -> list[str]:
+    """Return the names of all loads that the machine declares, a user's additions too, but those named."""
+    return [name for name in motion.plan.of_kind(ForceElement) if name not in but]
 
 
 def answers_over(motion: Motion, questions: Sequence[Question]) -> list[Answer]:

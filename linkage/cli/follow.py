@@ -138,13 +138,15 @@ def draw_along(machine: Mechanism, motion: Motion, path: Path, language: str) ->
     if path.suffix.lower() not in FILMS:
         draw(motion).savefig(path)
         return
+    places = int(motion.reached.sum())
+    ensure(places > 1, f"{machine.plan.title}: nothing moves along this path; it has {places} places in reach.")
     reached: dict[str, Any] = {}
     for name, values in motion.strokes.items():
         known, stroke = values[motion.reached], machine.strokes[name]
         stays = np.ptp(known) <= STAYS * abs(stroke.end - stroke.start)
         reached[name] = float(known[0]) if stays else known
     with progress_bar(f"drawing {path.name}") as progress:
-        animate(machine, path, count=int(motion.reached.sum()), at=reached, progress=progress)
+        animate(machine, path, count=places, at=reached, progress=progress)
 
 
 # The load chart.

@@ -15,7 +15,6 @@ import numpy as np
 from ..disk import check_place, in_words
 from ..errors import DefinitionError, StudyError, ensure, unknown
 from ..files import load, save
-from ..files.source import Keywords
 from ..files.study_tasks import TaskResult, read_study
 from ..files.synthesis_file import read_search, read_synthesis
 from ..mechanism import Mechanism
@@ -28,7 +27,7 @@ from ..units import deg, mm
 from .command import LINK, Command, option, progress_bar, repeatable, whole_number
 from .listing import OWN, registered
 from .machines import find, machine, split
-from .settings import parsed_setting
+from .settings import parsed_settings
 from .table import write_columns
 
 NOT_FEASIBLE = 1
@@ -62,11 +61,6 @@ def machine_of_study(trust: list[str], text: str, base: Path) -> type[Mechanism]
     return find(f"{base / text}" if is_file else text)
 
 
-def settings_of(texts: list[str], found: type[Mechanism]) -> Keywords:
-    """Return the dimensions of a machine that settings such as `OB=180mm` say."""
-    return dict(parsed_setting(found.plan, text) for text in texts)
-
-
 @contextmanager
 def study_progress(title: str, *, asked: bool) -> Iterator[ProgressLike | bool]:
     """Yield the function that reports how far a study is: a bar on a terminal, where it is asked for lines elsewhere."""
@@ -82,7 +76,7 @@ def say_progress(done: int, total: int) -> None:
 @Command("optimise", "the best dimensions: the search that a file asks for", *STUDY)
 def optimise_command(options: Namespace) -> int:
     """Search the best design."""
-    search = read_search(options.file, partial(machine_of_study, options.trust), partial(settings_of, options.settings))
+    search = read_search(options.file, partial(machine_of_study, options.trust), partial(parsed_settings, texts=options.settings))
     try:
         with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
             found = search.run(options.folder, progress)
@@ -144,7 +138,7 @@ STEP, TURN = 1.0 * mm, 0.1 * deg
 )
 def synthesise_command(options: Namespace) -> int:
     """Search machines for a path, a function or poses."""
-    asked = read_synthesis(options.file, partial(machine_of_study, options.trust), partial(settings_of, options.settings))
+    asked = read_synthesis(options.file, partial(machine_of_study, options.trust), partial(parsed_settings, texts=options.settings))
     outputs = {name: [*paths] for name, paths in asked.outputs.items()}
     for name, path in outputs_asked(options).items():
         outputs.setdefault(name, []).append(path)
@@ -193,7 +187,7 @@ def outputs_asked(options: Namespace) -> dict[str, Path]:
 @Command("study", "a survey, a zone, tolerances, a tornado or settings that a file asks for", *STUDY)
 def study_command(options: Namespace) -> int:
     """Run the studies of a file."""
-    study = read_study(options.file, partial(machine_of_study, options.trust), partial(settings_of, options.settings))
+    study = read_study(options.file, partial(machine_of_study, options.trust), partial(parsed_settings, texts=options.settings))
     folder = Path(options.folder) if options.folder else None
     solved = True
     for section in study.tasks:

@@ -60,7 +60,7 @@ def machine_of(options: Namespace) -> Mechanism:
     if held is None:
         ensure(not own, f"--machine {own}: {options.machine} is no file of a design, with `machine` and `[set]`.")
         return design_from(find(options.machine), options.settings)
-    changed = held.replaced(**dict(parsed_setting(held.plan, text) for text in options.settings))
+    changed = held.replaced(**parsed_settings(held, options.settings))
     return design_with(type(held), changed.dimensions) if options.settings else held  # made anew, as a class may have checks of its own
 
 
@@ -140,7 +140,7 @@ def print_verdicts(verdicts: Sequence[Verdict], options: Namespace) -> int:
 
 def design_from(machine: type[Kind], texts: Sequence[str]) -> Kind:
     """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for unknown or unfit ones."""
-    return design_with(machine, dict(parsed_setting(machine.plan, text) for text in texts))
+    return design_with(machine, parsed_settings(machine, texts))
 
 
 def design_with(machine: type[Kind], given: Mapping[str, Any]) -> Kind:
@@ -151,6 +151,11 @@ def design_with(machine: type[Kind], given: Mapping[str, Any]) -> Kind:
         remedy = "a command gives only what --set says; write def __init__(self, **dimensions), or give its arguments defaults"
         raise DefinitionError(f"{machine.plan.title}.__init__: {error}; {remedy}.") from None
     return machine(**given)
+
+
+def parsed_settings(machine: Mechanism | type[Mechanism], texts: Sequence[str]) -> dict[str, Any]:
+    """Return the dimensions of a machine that settings such as `OB=180mm` say."""
+    return dict(parsed_setting(machine.plan, text) for text in texts)
 
 
 def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:

@@ -217,7 +217,7 @@ class FoundMachine:
         self.ensure(self.points, "it holds no points that a link joins.")
         taken = set(WORDS)
         names, labels = self.point_names(taken)
-        size, unit = self.size * self.unit, self.unit
+        size, unit = longer_side(point.place for point in self.points.values()) * self.unit, self.unit
         self.ensure(isfinite(size) and size > 1e-9, f"all points stand at one place ({show(size, 'mm')}); look at --scale.")
         if not SMALL <= size <= LARGE:
             self.notes.append(f"The machine is {show(size, 'mm')} wide; if that is not meant, say what 1 of the file is, --scale 1mm.")
@@ -273,22 +273,22 @@ class FoundMachine:
     def point_names(self, taken: set[str]) -> tuple[dict[str, str], set[str]]:
         """Return legal names of the points by their keys, and the labels they make; numbers where joined names would be one for two."""
         names = {key: legal_name(point.name, taken) for key, point in self.points.items()}
-        labels = [*labels_of([[names[key] for key in points] for _, points in self.links])]
+        labels = labels_of(self.links, names)
         if len({*labels}) < len(labels) or not taken.isdisjoint(labels):
             names = {key: legal_name(f"P{number}", taken) for number, key in enumerate(self.points, 1)}
-            labels = [*labels_of([[names[key] for key in points] for _, points in self.links])]
+            labels = labels_of(self.links, names)
         changed = [f"{point.name} is {names[key]}" for key, point in self.points.items() if point.name != names[key]]
         if changed:
             self.notes.append(f"Named anew: {few(changed, ', ')}.")
         return names, {*labels}
 
 
-def labels_of(links: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield the labels of the lengths and angles of some links in both spellings; two that are equal cannot be told apart."""
-    pairs = {frozenset(pair): pair for points in links for pair in combinations(points, 2)}
-    corners = {(P, frozenset((Q, R))): (Q, P, R) for points in links for Q, P, R in permutations(points, 3)}
-    for names in (*pairs.values(), *corners.values()):
-        yield from {joined_names(*names), joined_names(*reversed(names))}
+def labels_of(links: Sequence[tuple[str, list[str]]], names: Mapping[str, str]) -> list[str]:
+    """Return the labels of lengths and angles of links in both spellings, by their points' names; two that are equal are not told apart."""
+    bodies = [[names[key] for key in points] for _, points in links]
+    pairs = {frozenset(pair): pair for points in bodies for pair in combinations(points, 2)}
+    corners = {(P, frozenset((Q, R))): (Q, P, R) for points in bodies for Q, P, R in permutations(points, 3)}
+    return [label for each in (*pairs.values(), *corners.values()) for label in {joined_names(*each), joined_names(*reversed(each))}]
 
 
 def legal_name(given: str, taken: set[str]) -> str:

@@ -6,10 +6,9 @@ from argparse import Namespace
 
 from linkage import DefinitionError
 from linkage.cli.command import CSV, Command, count_option, figure_path, machine_options, option, picture_option
-from linkage.cli.settings import CHECK, OVER, overs_of, parsed_setting, print_verdicts, si_value
+from linkage.cli.settings import CHECK, OVER, overs_of, parsed_settings, print_verdicts, si_value
 from linkage.cli.table import write_table
 from linkage.errors import ensure
-from linkage.plan import Plan
 from linkage.units import kgf, show
 
 from ..paper import machine_like
@@ -56,7 +55,7 @@ def print_balance(options: Namespace) -> int:
     motion = machine.at(h=machine.strokes["h"].start)
     compared = deviations(motion, read_measured(options.measured)) if options.measured else []
     if options.table:
-        columns = setting_table(WANTED, changes(machine.plan, options))
+        columns = setting_table(WANTED, parsed_settings(machine, options.settings))
         print(ABOUT_TABLE)
         write_table(columns, options.csv)
     if not options.table or options.header or options.pressure or options.reaction or compared:
@@ -81,7 +80,7 @@ def print_balance(options: Namespace) -> int:
 def header_of(options: Namespace) -> HeaderBalancer:
     """Return the machine that the options mean."""
     machine = machine_like(options, HeaderBalancer, "balanced header")
-    changed = changes(machine.plan, options)
+    changed = parsed_settings(machine, options.settings)
     is_shipped = type(machine) is HeaderBalancer and machine.dimensions == HeaderBalancer(**changed).dimensions
     if options.table and not is_shipped:
         raise DefinitionError(f"--table goes with header_balancer and its headers; {options.machine} has dimensions of its own.")
@@ -93,8 +92,3 @@ def header_of(options: Namespace) -> HeaderBalancer:
         reaction = si_value(options.reaction, "force", "--reaction", UNITS)
         given["charge"] = charge_for(found(**given).at(h=found.plan.strokes["h"].start), reaction)
     return found(**given)
-
-
-def changes(plan: Plan, options: Namespace) -> dict[str, float]:
-    """Return the dimensions set by `--set`."""
-    return dict(parsed_setting(plan, text) for text in options.settings)

@@ -30,9 +30,10 @@ from linkage.pictures import style
 from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 
+from ..paper import own_loads
 from ..sheets import WORDS, beside, curve, dot, headed
 from .criteria import HEADERS
-from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, height_at, over_following, own_loads
+from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, height_at, over_following
 from .machine import HeaderBalancer, ImprovedBalancer, with_header
 from .measured import ALLOWED, Deviation
 from .scheme import scheme

@@ -14,10 +14,12 @@ from linkage.errors import ensure, require_whole
 from linkage.language import noted
 from linkage.loads import SENSES, Acting, PinFriction, Support
 from linkage.loads.element import Formulas
-from linkage.motion import Answer, MotionFunction, judge_along, require_motion
+from linkage.motion import Answer, MotionFunction, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance
 from linkage.units import mm, require_number, show
+
+from ..paper import answers_over, own_loads
 
 AB = Distance("A", "B")  # one for all, so that its ratio is worked out once
 
@@ -120,11 +122,6 @@ def write_reaction(written: Formulas) -> None:
     written.line("F_R_up", (moment - arm * (thrust - seals)) / out, "kgf")
     written.line("F_R_down", (moment - arm * (thrust + seals)) / out, "kgf")
     written.line("P_req", moment / (arm * area), "kgf/cm2")
-
-
-def own_loads(motion: Motion, *but: str) -> list[str]:
-    """Return the names of all loads that the machine declares, a user's additions too, but those named."""
-    return [name for name in motion.plan.of_kind(ForceElement) if name not in but]
 
 
 def dry_frictions(motion: Motion) -> list[str]:
@@ -291,7 +288,7 @@ def relief(motion: Motion) -> Answer:
         The pressure, and where it is.
     """
     lifted = motion.moved({"h": np.array([stroke_of(motion, 0.0), motion.plan.strokes["h"].end])})
-    return judge_along(lifted).answer(most(MotionFunction(lifting_pressure)))
+    return answers_over(lifted, [most(MotionFunction(lifting_pressure))])[0]
 
 
 def lifting_pressure(motion: Motion) -> FloatArray:

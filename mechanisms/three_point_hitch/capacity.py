@@ -28,6 +28,8 @@ from linkage.statics import AnyMotion, LawRequest
 from linkage.study import Settings, Zone, settings_for, zone
 from linkage.units import deg, g0, mm, require_number, show, shown_number, unit_sign
 
+from ..paper import own_loads
+
 BEHIND = 610 * mm
 """Distance from the hitch points to the centre of the load at which tractors are tested (OECD Code 2)."""
 
@@ -41,11 +43,6 @@ def circuit_of(motion: Motion) -> LiftCircuit:
     """Return the motion's lift circuit."""
     require_motion(motion)
     return lifting_circuit(motion.plan)
-
-
-def own_loads(motion: AnyMotion) -> list[str]:
-    """Return the loads of the hitch without its implement, by name: masses, friction and added ones."""
-    return [name for name in motion.plan.of_kind(ForceElement) if name not in NOT_OWN]
 
 
 def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray:
@@ -65,14 +62,14 @@ def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray
     array (...)
         The capacity [N]; NaN where I is not above zero: not limited by this cylinder.
     """
-    return circuit_of(motion).lifted(motion, point, own_loads(motion), share=share)
+    return circuit_of(motion).lifted(motion, point, own_loads(motion, *NOT_OWN), share=share)
 
 
 def lifted(point: str = "G", share: float = 1.0) -> LawRequest:
     """Return the request for the lifting capacity (28) [N] at a point and a share of the pump's pressure."""
 
     def formula(motion: AnyMotion) -> FloatArray:
-        return lifting_circuit(motion.plan).lifted(motion, point, own_loads(motion), share=share)
+        return lifting_circuit(motion.plan).lifted(motion, point, own_loads(motion, *NOT_OWN), share=share)
 
     known = "lifted", point, share
     return LawRequest(formula=formula, text="the lifting capacity", known=known, measures="force", examine=lifting_circuit)
@@ -149,8 +146,8 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
     def found() -> FloatArray:
         circuit = circuit_of(motion)
         (lift,) = circuit.rams(motion)
-        most = circuit.largest(motion, own_loads(motion)) * circuit.efficiency(motion, "mechanical")
-        spare = most - lift.thrust(motion, own_loads(motion), direction="extending")
+        most = circuit.largest(motion, own_loads(motion, *NOT_OWN)) * circuit.efficiency(motion, "mechanical")
+        spare = most - lift.thrust(motion, own_loads(motion, *NOT_OWN), direction="extending")
         with np.errstate(divide="ignore"):
             return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
 

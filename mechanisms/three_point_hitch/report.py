@@ -16,7 +16,8 @@ from linkage.motion import Judge, MotionFunction, below_zero, judge_along
 from linkage.program import FloatArray
 from linkage.units import g0, show, shown_number
 
-from .capacity import BEHIND, SHARE, at_hitch_points, behind, capacity, circuit_of, lifted, mast_words, own_loads, weakest
+from ..paper import own_loads
+from .capacity import BEHIND, NOT_OWN, SHARE, at_hitch_points, behind, capacity, circuit_of, lifted, mast_words, weakest
 
 
 def lever(motion: Motion, x: FloatArray, y: FloatArray) -> FloatArray:
@@ -44,7 +45,7 @@ def added(motion: Motion) -> tuple[FloatArray, FloatArray, FloatArray]:
     elements, totals = motion.plan.of_kind(ForceElement), []
     for slope in (0.0, np.pi / 2.0, np.pi):
         total = np.zeros(motion.shape)
-        for name in own_loads(motion):
+        for name in own_loads(motion, *NOT_OWN):
             for load in elements[name].in_gravity(None, slope).loads(motion):
                 r, force = motion[load.point], load.force
                 total = total - (r[0] * force[1] - r[1] * force[0])

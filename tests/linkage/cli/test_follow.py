@@ -86,6 +86,13 @@ def test_a_path_is_drawn(tmp_path, loader, capsys):
     assert picture.stat().st_size > 1000 and str(picture) in capsys.readouterr().out
 
 
+def test_a_film_of_a_path_that_is_nowhere_reached_is_refused(tmp_path, loader, capsys):
+    film = tmp_path / "lift.gif"
+    path = written(tmp_path, "T_y\n12\n13\n")
+    assert main(["follow", loader, "--path", path, "--hold", "dump=0.9m", "--gaps", "-o", str(film)]) == 2
+    assert "nothing moves along this path; it has 0 places in reach." in capsys.readouterr().err and not film.exists()
+
+
 @pytest.mark.slow
 def test_a_path_with_a_stroke_that_is_held_is_a_film(tmp_path, loader, capsys):
     film = tmp_path / "lift.gif"

@@ -71,6 +71,7 @@ def test_a_row_that_is_wrong_is_told_once_with_its_line_and_the_remedy(tmp_path)
         ("1150,1250", '"1150,5",1250', "typo.csv, line 4, x of 'E': '1150,5' is no finite number"),
         ("[mm]", "[furlong]", "typo.csv, line 1: 'furlong' is no unit of length; known are m, mm, "),
         ("[mm]", "[kg]", "typo.csv, line 1: 'kg' is no unit of length; known are m, mm, "),
+        ("Ball,300,0", "Ball,0,0", "typo.csv: all points stand at one place (0 mm); look at --scale."),
         ("link,,,,A Ball", "link,,,,A Ball\nlink,,,,Ball E", "Typo: the parts leave E free"),
     ):
         (tmp_path / "typo.csv").write_text((HEAD + rows).replace(old, new), encoding="utf-8")

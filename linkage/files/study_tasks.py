@@ -38,7 +38,6 @@ from ..quantities import is_number
 from ..study import Box, Target, monte_carlo, settings_for, survey, tornado, zone
 from ..study.measured import measured_title
 from ..study.monte_carlo import limits_listed
-from ..study.optimise import constraint_in_case
 from ..study.optimum import unit_of_measure
 from ..study.problem import NOWHERE, Problem, missed
 from ..study.space import METHODS as SAMPLE_METHODS
@@ -156,6 +155,10 @@ def box_said(head: StudyHead, given: object) -> Keywords:
     return {name: value for part in parts for name, value in part.items()}
 
 
+MOST_STEPS = 1e6
+"""Steps of a stroke."""
+
+
 def swept_strokes(head: StudyHead, given: object) -> Keywords:
     """Return the strokes that are looked at [SI], arrays or single values; SeveralError with all mistakes, each under its stroke."""
     given = require_type("", given, Mapping, 'a table of strokes is expected, such as strokes = { S = "100 mm" }')
@@ -169,8 +172,11 @@ def swept_strokes(head: StudyHead, given: object) -> Keywords:
         if span is None:
             return name, amount_said(value, measures)
         low, high, *step = span
-        by = np.copysign(step[0], high - low) if step else 0.0
-        return name, np.arange(low, high + 0.5 * by, by) if step else np.linspace(low, high, head.found.get("poses", 1))
+        if not step:
+            return name, np.linspace(low, high, head.found.get("poses", 1))
+        ensure(step[0] > 0.0 and abs(high - low) <= MOST_STEPS * step[0], f"{cited(value)}: give a longer step.")
+        by = np.copysign(step[0], high - low)
+        return name, np.arange(low, high + 0.5 * by, by)
 
     return dict(each_of(by_whole_names(given), values))
 
@@ -217,7 +223,7 @@ def condition_limits(head: StudyHead, given: object) -> list[Constraint]:
 
     def limits(text: object) -> list[Constraint]:
         kept = condition_said(text, head.machine).constraints(head.machine)
-        return [*limits_listed(head.machine, [constraint_in_case(one, head.found["case"]) for one in kept])]
+        return [*limits_listed(head.machine, [in_case(one, head.found["case"]) for one in kept])]
 
     return [one for each in study_file.texts_said(given, limits) for one in each]
 

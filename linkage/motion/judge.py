@@ -791,8 +791,7 @@ class Judge:
                 return [constraint]
             asked = [each.quantity for each in (*leaf.leaves, *constraint.right.leaves) if isinstance(each.quantity, Request)]
             known = dict.fromkeys(replace(each, case=None) for request in asked for each in self.actings(request))
-            sides = [(in_situation(leaf, each), in_situation(constraint.right, each)) for each in known if each.is_moving]
-            return [constraint, *(replace(constraint, left=left, right=right) for left, right in sides)]
+            return [constraint, *(in_situation(constraint, each) for each in known if each.is_moving)]
         rows = [row for place in self.places for row in self.search_rows(leaf, place)]
         if len(rows) == 1:
             return [constraint]

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial, reduce
-from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard
+from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -481,14 +481,18 @@ def conditions_of(given: object, machine: object) -> list[Constraint]:
 # Load cases.
 
 
-def in_case(measure: Measure, case: Case) -> Measure:
-    """Return a measure with the forces of a load case, where it names none itself."""
+Sided = TypeVar("Sided", Measure, Constraint)
+"""A measure, or a constraint with one on either side."""
+
+
+def in_case(measure: Sided, case: Case) -> Sided:
+    """Return a measure or a constraint with the forces of a load case, where it names none itself."""
     return measure if case is None else in_situation(measure, Acting(case=case))
 
 
-def in_situation(measure: Measure, acting: Acting) -> Measure:
-    """Return a measure with the forces of a situation, where it names none itself."""
-    if isinstance(measure, CombinedMeasure):
+def in_situation(measure: Sided, acting: Acting) -> Sided:
+    """Return a measure or a constraint with the forces of a situation, where it names none itself; itself where it has none."""
+    if isinstance(measure, (CombinedMeasure, Constraint)):
         left, right = in_situation(measure.left, acting), in_situation(measure.right, acting)
         return measure if left is measure.left and right is measure.right else replace(measure, left=left, right=right)
     if not (isinstance(measure, Leaf) and isinstance(measure.bare_quantity, Request)):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial, reduce
 from typing import Any, TypeVar
 
@@ -303,7 +303,7 @@ def in_situations(condition: Constraint, counted: Callable[[Sequence[Leaf]], lis
     """Return a condition in every situation that counts: what is asked at rest alone goes with all that moves."""
     known = counted(condition.margin.leaves)
     among = [each for each in known if each.direction is not None] or known or [Acting()]
-    return [replace(condition, left=in_situation(condition.left, each), right=in_situation(condition.right, each)) for each in among]
+    return [in_situation(condition, each) for each in among]
 
 
 def leaves_measured(asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> list[Leaf]:

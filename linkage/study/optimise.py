@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
-from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, TypeVar, Unpack, cast, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict, Unpack, cast, overload
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from ..errors import (
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Judge, Over, Request, measures
-from ..motion.measures import At, CombinedMeasure, Constraint, FixedNumber, Leaf, Measure, Worst, in_case, strokes_behind, words_of
+from ..motion.measures import At, CombinedMeasure, Constraint, FixedNumber, Leaf, Measure, Sided, Worst, in_case, strokes_behind, words_of
 from ..motion.requests import Combined
 from ..numeric.descent import without_repeats
 from ..program import FloatArray, fixed_backend
@@ -354,32 +354,18 @@ def check_objectives_move(problem: Problem) -> None:
 
 # Load cases.
 
-AnyRequest = TypeVar("AnyRequest", Measure, Constraint)
-
-
-def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
-    """Return a constraint with the forces of a load case; itself where none is in it."""
-    if case is None:
-        return constraint
-    found = Constraint(in_case(constraint.left, case), constraint.symbol, in_case(constraint.right, case))
-    before, after = ((*each.left.leaves, *each.right.leaves) for each in (constraint, found))
-    return constraint if all(a.quantity is b.quantity for a, b in zip(before, after, strict=True)) else found
-
-
-def each_in_cases(
-    asked: Sequence[AnyRequest], cases: Sequence[Case], machine: Mechanism, put: Callable[[AnyRequest, Case], AnyRequest]
-) -> tuple[AnyRequest, ...]:
+def each_in_cases(asked: Sequence[Sided], cases: Sequence[Case], machine: Mechanism) -> tuple[Sided, ...]:
     """Return measures or constraints as a judge is to look at them: in the load cases of a search, themselves where these are all."""
     if {*cases} == {None, *machine.plan.of_kind(LoadCase)}:
         return tuple(asked)
-    return tuple(dict.fromkeys(put(one, PLAIN_CASE if each is None else each) for one in asked for each in cases))
+    return tuple(dict.fromkeys(in_case(one, PLAIN_CASE if each is None else each) for one in asked for each in cases))
 
 
 def pieces_in_cases(constraints: Sequence[Constraint], cases: Sequence[Case], judge: Judge) -> list[Constraint]:
     """Return the smooth pieces of constraints that a judge looks at, each with the forces of the load cases where it names none itself."""
     found: list[Constraint] = []
     for one in constraints:
-        own = [constraint_in_case(one, PLAIN_CASE if each is None else each) for each in cases]
+        own = [in_case(one, PLAIN_CASE if each is None else each) for each in cases]
         if all(each is one for each in own):
             found += judge.split(one)
             continue

@@ -15,14 +15,14 @@ from ..frozen import frozen, immutable
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
-from ..motion.measures import Constraint, FixedNumber, Measure, conditions_of, in_case, mean_in_cases, measure_of, reachable, words_of
+from ..motion.measures import Constraint, FixedNumber, Measure, conditions_of, mean_in_cases, measure_of, reachable, words_of
 from ..numeric.descent import without_repeats
 from ..plan import Mask
 from ..program import FloatArray, fixed_backend
 from ..study.checkpoint import Checkpoint, digest, facts_as_json, facts_of_machine
 from ..study.designs import Array
 from ..study.measured import traced_number
-from ..study.optimise import cases_searched, check_counts, constraint_in_case, each_in_cases, pieces_in_cases, where_searched
+from ..study.optimise import cases_searched, check_counts, each_in_cases, pieces_in_cases, where_searched
 from ..study.problem import Problem, end_words
 from ..study.space import FAR, Space, check_one_design, size_of_machine, unit_points
 from ..study.survey import Executor, LocalExecutor, check_executor, check_progress, progress_told
@@ -172,8 +172,8 @@ def synthesise(
     over, occurring = where_searched(machine, over, travels)
     cases, shares = cases_searched(machine, case, occurring)
     asked = [*conditions_of(subject_to, machine), *space.conditions]
-    ranks = () if rank is None else (mean_in_cases(rank, shares),) if shares else each_in_cases([rank], cases, machine, in_case)
-    held = each_in_cases(asked, cases, machine, constraint_in_case)
+    ranks = () if rank is None else (mean_in_cases(rank, shares),) if shares else each_in_cases([rank], cases, machine)
+    held = each_in_cases(asked, cases, machine)
     constraints = pieces_in_cases(asked, cases, machine.judge(over))
     problem = Problem(machine, [FixedNumber(0.0)], constraints, space, 1.0, over)
     problem.count.limit = limit

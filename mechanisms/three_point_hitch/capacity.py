@@ -154,11 +154,6 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
     return require_motion(motion)._once("stroke per newton", found)
 
 
-def stroke_size_per_newton(motion: Motion) -> FloatArray:
-    """Return one over the size of the capacity at G [1/N], shape (...), while the cylinder goes out or in."""
-    return np.abs(stroke_per_newton(motion))
-
-
 # The weakest point of the capacity curve, and what limits it there.
 
 CHANGE = 10 * mm
@@ -223,7 +218,8 @@ def weakest(motion: Motion) -> Weakest | None:
         The weakest point.
     """
     judge = judge_along(motion)
-    worst, easiest = judge.answers([most(MotionFunction(stroke_per_newton)), least(MotionFunction(stroke_size_per_newton))])
+    share = MotionFunction(stroke_per_newton)
+    worst, easiest = judge.answers([most(share), least(abs(share))])
     if not worst.value > 0.0:
         return None
 

@@ -20,22 +20,6 @@ from ..paper import own_loads
 from .capacity import BEHIND, NOT_OWN, SHARE, at_hitch_points, behind, capacity, circuit_of, lifted, mast_words, weakest
 
 
-def lever(motion: Motion, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return the lever of a weight at (x, y) about the driving wheels' contact [m], positive where it lifts the front axle."""
-    slope = motion.inputs["slope"]
-    return np.asarray(x * np.cos(slope) - y * np.sin(slope))
-
-
-def vehicle_lever(motion: Motion) -> FloatArray:
-    """Return the lever of the tractor's own weight [m]; negative where it loads the front axle."""
-    return lever(motion, motion.inputs["vehicle_x"], motion.inputs["vehicle_y"])
-
-
-def implement_lever(motion: Motion) -> FloatArray:
-    """Return the lever of the implement's weight [m], shape (...)."""
-    return lever(motion, motion.x("G"), motion.y("G"))
-
-
 def added(motion: Motion) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the moment of all other loads about the wheels' contact [Nm] as (a, b, c), shape (...): a cos + b sin + c of the slope.
 
@@ -55,11 +39,14 @@ def added(motion: Motion) -> tuple[FloatArray, FloatArray, FloatArray]:
     return level - constant, wall - constant, constant
 
 
-def added_moment(motion: Motion) -> FloatArray:
-    """Return the moment of all other loads on the slope as it is set [Nm], shape (...), positive where it lifts the front axle."""
-    a, b, c = added(motion)
-    slope = motion.inputs["slope"]
-    return np.asarray(a * np.cos(slope) + b * np.sin(slope) + c)
+def lifting(motion: Motion) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the levers of tractor and implement about the driving wheels' contact [m] and the moment of all other loads [Nm], (...) each.
+
+    Positive where they lift the front axle, on the slope as it is set.
+    """
+    given, (a, b, c) = motion.inputs, added(motion)
+    cos, sin = np.cos(given["slope"]), np.sin(given["slope"])
+    return given["vehicle_x"] * cos - given["vehicle_y"] * sin, motion.x("G") * cos - motion.y("G") * sin, a * cos + b * sin + c
 
 
 def front_axle(motion: Motion) -> FloatArray:
@@ -75,9 +62,9 @@ def front_axle(motion: Motion) -> FloatArray:
     array (...)
         The load.
     """
-    given = motion.inputs
-    moment = given["vehicle_mass"] * vehicle_lever(motion) + given["load.mass"] * implement_lever(motion)
-    return np.asarray(-(g0 * moment + added_moment(motion)) / given["wheelbase"])
+    given, (vehicle, implement, others) = motion.inputs, lifting(motion)
+    moment = given["vehicle_mass"] * vehicle + given["load.mass"] * implement
+    return np.asarray(-(g0 * moment + others) / given["wheelbase"])
 
 
 def mass_leaving(motion: Motion, share: FloatArray | float) -> FloatArray:
@@ -85,11 +72,10 @@ def mass_leaving(motion: Motion, share: FloatArray | float) -> FloatArray:
 
     0 where not even the bare tractor has it; NaN where the implement's weight does not lift the front axle: no limit.
     """
-    given, arm = motion.inputs, implement_lever(motion)
-    spare = -given["vehicle_mass"] * (vehicle_lever(motion) + share * given["wheelbase"]) - added_moment(motion) / g0
+    given, (vehicle, implement, others) = motion.inputs, lifting(motion)
+    spare = -given["vehicle_mass"] * (vehicle + share * given["wheelbase"]) - others / g0
     with np.errstate(divide="ignore", invalid="ignore"):
-        mass = spare / arm
-    return np.where(arm > 0.0, np.maximum(mass, 0.0), np.nan)
+        return np.where(implement > 0.0, np.maximum(spare / implement, 0.0), np.nan)
 
 
 def tipping_mass(motion: Motion) -> FloatArray:

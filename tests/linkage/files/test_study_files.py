@@ -669,6 +669,7 @@ def test_a_zone_goes_down_a_stroke_in_steps_and_says_where_it_is_nowhere(here, s
         ('OB = "0.1 mm", A', 'OB = "0.1 deg", A', "tolerance.tolerances.OB: '0.1 deg' is an angle"),
         ('"0.1 mm", BOT', '"-0.1 mm", BOT', "tornado.tolerances.OB:"),
         ('strokes = { S = "100 mm" }', "", "tornado.strokes: say the pose, strokes = { S = ... }"),
+        ('{ S = "100 mm" }', '{ S = "0 to 9 mm by 0 mm" }', "tornado.strokes.S: '0 to 9 mm by 0 mm': give a longer step."),
         ("at(lift, S=100 mm) == -10 deg", "at(lift, S=100 mm) >= 0 deg", "settings.targets.1:"),
         ('tornado = ["tornado.csv"', 'tornado = ["tornado.txt"', "outputs.tornado: tornado.txt: the file's name ends in"),
     ],

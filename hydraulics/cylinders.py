@@ -305,7 +305,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             own = (each for line in lines for each in line.chambers_of(self, members))
             return reduce(np.add, (chamber_area(each, self, motion) for each in own), 0.0 * sense)
         area = self.area_in(motion, sense)
-        return area if size.works == "both" else np.where(size.sense * sense < 0.0, 0.0, area)
+        return area if size.works == "both" or not first.works_both else np.where(size.sense * sense < 0.0, 0.0, area)
 
     def closed_thrust(self, motion: AnyMotion, acting: Acting) -> Array | None:
         closed = lines_of(self, motion.plan.members, "closed")
@@ -1388,8 +1388,9 @@ class Circuit(OnLines, HasVerdicts):
         """Return how its pressure acts where it is given by itself, and a load case shuts it: beside a pump's line it joins that."""
         if not self._is_shut or self.kind_open(members) != "given":
             return None
-        beside = [line for ram in self.members(members) for line, _ in lines_of(ram, members) if not same(line, self)]
-        kinds = {line.kind_open(members) for line in beside}
+        own = self.members(members)
+        beside = (line for line in circuits_among(members) if any(is_among(ram, own) for ram in line.members(members)))
+        kinds = {line.kind_open(members) for line in beside if not same(line, self)}
         return None if "held" in kinds and "closed" not in kinds else Tie(self.name, self.pressure_shares(members), held=True)
 
     def rams(self, motion: Poses) -> tuple[Ram, ...]:

@@ -365,6 +365,11 @@ def test_rams_of_one_line_have_its_pressure_on_the_side_that_it_fills(seed):
             parts = [shut[lines.index(line)] * (size.push_area if side == "piston" else -size.pull_area) for line, side in sides]
             assert_allclose(sum(parts), members[ram].thrust(motion, case="parked"), rtol=1e-9, atol=1e-3)
         assert np.all((np.min(shut, axis=0) > -1e-3) | np.isnan(shut[0]))
+        if kind == "tank":
+            twin = made(base=structure, **{lines[0].name: LiftCircuit(rams, pressure=200 * bar)})().at(unreachable="nan", **poses)
+            for ram in rams:
+                found = twin.plan.members[ram].thrust(twin, case="parked")
+                assert_allclose(found, members[ram].thrust(motion, case="parked"), rtol=1e-9, atol=1e-6)
         assert kind == "tank" or np.all((np.min(given, axis=0) > -1e-3) | np.isnan(given[0]))
         way = machine.sweep(S=101, R=0.1) if stroke == "S" else machine.sweep(S=0.1, R=101)
         oil = np.ptp(lines[0].oil(way))

@@ -453,10 +453,16 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return between which two thrusts [N] its circuit lets it stand, where it lifts or where it holds; unbounded without a circuit.
 
         A LiftCircuit gives what its pump lifts with the sides that work, at a `share` of its pressure, or what its relief valve holds with
-        both: the piston up to the highest, the annulus down to the lowest. A FloatCircuit gives the gas's force and no other.
-        DefinitionError where it is on several circuits: ask one, `circuit.bounds_of(lift, motion, lifting)`.
+        both: the piston up to the highest, the annulus down to the lowest. A FloatCircuit gives the gas's force and no other. Where pumps'
+        lines have a side each, each gives its end. DefinitionError where several circuits have it otherwise: ask one,
+        `circuit.bounds_of(lift, motion, lifting)`.
         """
         require_poses(motion)
+        own, members = as_in(motion.plan, self), motion.plan.members
+        sides = {line.as_worked(own, members).side: line for line in lines_by_side(own, motion.plan)}
+        if sides:
+            low, high = (sides[side].bounds_of(self, motion, lifting, share=share)[end] for end, side in enumerate((ROD, PISTON)))
+            return low, high
         circuit = circuit_having(self, motion.plan)
         return UNBOUNDED if circuit is None else circuit.bounds_of(self, motion, lifting, share=share)
 

@@ -28,7 +28,19 @@ from linkage.motion import Answer, Judge, Motion, greatest, lowest
 from linkage.plan import Mask, Plan
 from linkage.program import is_traced
 from linkage.quantities import NamedMembers, Reference, of_kind
-from linkage.statics import PROBE, AnyMotion, elements_of, held_in_case, member_limits, member_thrust, plan_of, pump_thrust, same
+from linkage.statics import (
+    PROBE,
+    AnyMotion,
+    elements_of,
+    greatest_kept,
+    held_in_case,
+    holders_of,
+    member_limits,
+    member_thrust,
+    plan_of,
+    pump_thrust,
+    same,
+)
 from linkage.statics.carried import IDLE, direction_at, is_steady, pull_direction, pulling
 from linkage.units import require_measure, show
 
@@ -500,8 +512,9 @@ class LiftLine(Circuit):
         given = situation_of("capacity", acting, loads=loads, case=case)
         limits = member_limits(plan_of(motion), given.case)
         chosen = limits if limit is None else limits[limit : limit + 1]
-        if chosen and not isinstance(motion, Motion):
-            raise UntracedError(f"the capacity at {point} is limited by {chosen[0].name}, too")
+        bends = holders_of(plan_of(motion)).changes_shares
+        if (chosen or bends) and not isinstance(motion, Motion):
+            raise UntracedError(f"the capacity at {point} is {f'limited by {chosen[0].name}, too' if chosen else 'found pose by pose'}")
         own = [element for _, element in elements_of(motion.plan, given.loads)]
 
         def beside(load: Array | float) -> Acting:
@@ -536,6 +549,8 @@ class LiftLine(Circuit):
 
         alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
         found = (most - alone) / safe
+        if holders_of(held_in_case(motion, beside(0.0)).plan).changes_shares:
+            return only_where(lifts, greatest_kept(lambda load: most - carried(load), most - alone, found))
         if any(each.frictions(motion) for each in own):
             for _ in range(ROUNDS):  # friction grows with the load: a line through two states, again until it stays
                 guess = np.where(lifts & (found > 0.0), found, 1.0)

@@ -2,9 +2,9 @@
 
 from ..star import declare_public
 from .applied import applied_elements, applied_loads, elements_of, plan_in_case, rates_in
-from .carried import PROBE, Direction, direction_at, direction_words, is_steady, member_limits, pull_direction, pulling
+from .carried import PROBE, Direction, direction_at, direction_words, greatest_kept, is_steady, member_limits, pull_direction, pulling
 from .force_requests import drive_force, drive_remarks, held_verdict, pin_force, pin_forces_under, thrust_from_forces
-from .holding import each_once, is_among, same, stroke_followed, tied_forces
+from .holding import each_once, holders_of, is_among, same, stroke_followed, tied_forces
 from .joint_forces import GlandForce, JointForce, PinForces, pin_forces
 from .law_requests import LawRequest, TracedMotion, acceleration, dynamic_factor, has_masses, own_rates, pace_remarks, request_text, speed
 from .poses import AnyMotion, motion_of_whole, plan_of

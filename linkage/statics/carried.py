@@ -2,7 +2,7 @@
 
 An element is bounded where it says so, `ForceElement.bounds`: a cylinder by its circuit, a support by being able to push alone. Beside
 these forces stand the members' own conditions, those of their verdicts, pose by pose: a rope that would push, a line that runs empty.
-With friction, and on lines whose cylinders share otherwise while they pull, the load is found by secants on the same bounds.
+With friction the load is found by secants on the same bounds, on lines whose cylinders share otherwise while they pull in a bracket.
 """
 
 from __future__ import annotations
@@ -178,8 +178,7 @@ class LoadAt:
     def is_affine(self) -> bool:
         """Whether forces are affine in the load."""
         elements = [element for name, element in self.plan.of_kind(ForceElement).items() if name not in self.without]
-        rubs, changes = (each.frictions(self.some) for each in elements), (line.changes_shares for line in holders_of(self.plan).lines)
-        return not any(rubs) and not any(changes)
+        return not any(each.frictions(self.some) for each in elements) and not holders_of(self.plan).changes_shares
 
     # -- the forces ----------------------------------------------------------------------------------------
 
@@ -250,7 +249,10 @@ class LoadAt:
         return found
 
     def _found(self, motion: Motion, name: str, share: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
-        """Return the greatest load for one element whose force is not affine in it, by secants; it moves as the load is lifted."""
+        """Return the greatest load for one element whose force is not affine in it, by secants or a bracket.
+
+        It moves as the load is lifted.
+        """
         element, ways = self.bounded[name], {1.0: "extending", -1.0: "retracting"}
 
         def force(load: FloatArray) -> FloatArray:
@@ -262,6 +264,13 @@ class LoadAt:
 
         alone = force(np.zeros(motion.shape))
         found = greatest_load(alone, share, low, high)
+        if holders_of(self.plan).changes_shares:  # a line through two loads may meet neither its push nor its pull
+
+            def spare(load: FloatArray) -> FloatArray:
+                carried = force(load)
+                return np.minimum(carried - low, high - carried) + KEPT
+
+            return greatest_kept(spare, spare(np.zeros(motion.shape)), found)
         for _ in range(ROUNDS):
             known = np.isfinite(found) & (found > 0.0)
             guess = np.where(known, found, 1.0)
@@ -371,7 +380,8 @@ def greatest_kept(spare: Callable[[FloatArray], FloatArray], alone: FloatArray, 
         if np.all((high - low <= SAME * high) | (held != 1.0) | np.isnan(alone)):
             break
         with np.errstate(divide="ignore", invalid="ignore"):
-            guess = np.clip((low * at_high - high * at_low) / (at_high - at_low), low, high)
+            found = (low * at_high - high * at_low) / (at_high - at_low)
+        guess = np.clip(np.where(np.isfinite(found), found, low), low, high)  # a pose without a value keeps a load
     return np.where(np.isnan(alone), np.nan, np.where(held == 1.0, low, held))
 
 

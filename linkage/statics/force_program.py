@@ -38,7 +38,7 @@ def forces_at(poses: FlatPoses, applied: AppliedLoads, split: str = "refuse") ->
     if split == "refuse" and isinstance(motion, Motion):
         structure = Structure(poses.plan, applied.elements, applied.thrusts)
         holders = structure.holders
-        if not any(line.changes_shares for line in holders.lines) and not any(run.back for run in holders.reeved.values()):
+        if not holders.changes_shares and not any(run.back for run in holders.reeved.values()):
             frictions = joint_frictions(structure, poses, applied.frictions, applied.rates) if applied.frictions else []
             program = program_of(structure, applied, [structure.contacts.index(each.contact) for each in frictions])
             found = None if program is None else run_at(motion, program, structure, poses, applied, frictions)

@@ -66,6 +66,11 @@ class Holders:
         return tuple(product(*((1, -1) if line.changes_shares else (1,) for line in self.lines)))
 
     @property
+    def changes_shares(self) -> bool:
+        """Whether the shares of some line change with its sense, so that no thrust is affine in the loads."""
+        return any(line.changes_shares for line in self.lines)
+
+    @property
     def every_line(self) -> tuple[PressureLine, ...]:
         """The lines that hold, then the closed ones."""
         return (*self.lines, *self.closed)

@@ -24,6 +24,7 @@ from hydraulics import (
     reserve,
     thrust,
 )
+from hydraulics.lifting_line import LiftLine
 from linkage import (
     LEFT,
     RIGHT,
@@ -54,8 +55,11 @@ from linkage import (
     ref,
 )
 from linkage.formulas import equations
+from linkage.loads import ForceElement
 from linkage.motion import least, most
 from linkage.quantities import label
+from linkage.statics import pulling
+from linkage.statics.carried import LoadAt
 from linkage.units import bar, deg, kN, litre
 from tests.for_all import for_all
 
@@ -376,6 +380,22 @@ def test_rams_of_one_line_have_its_pressure_on_the_side_that_it_fills(seed):
         assert oil * (1 - 1e-9) <= lines[0].taken(way) <= oil * 1.01
 
 
+@for_all("seed", (), slow=range(6))
+def test_what_a_line_and_a_chart_lift_brings_a_line_to_its_pumps_pressure(seed):
+    structure, _ = shared(seed)
+    machine, poses, way = structure(), dict(S=np.array([-0.25, 0.1]), R=np.array([0.2, 0.0])), (0.0, 1.0 - 2.0 * (seed % 2))
+    motion, own = machine.at(unreachable="nan", **poses), [*machine.plan.of_kind(ForceElement)]
+    lines = [each for each in machine.plan.of_kind(LiftLine).values() if not each.is_drained]
+    found = [each.lifted(motion, "T", along=way) for each in lines]
+    for line, load in zip(lines, found, strict=True):
+        loaded = line.pressure_for(motion, [*own, pulling("T", way, np.nan_to_num(load), motion)])
+        assert_allclose(loaded[load > 0.0], 200 * bar, rtol=1e-8)
+    least_lifted = np.nan_to_num(found, nan=np.inf).min(axis=0)
+    charted = LoadAt(machine.plan, machine.plan.defaults, "T", way).at(poses).min(axis=0)
+    compared = (charted > 0.0) & (least_lifted < np.inf)  # a chart's load may be the one that drives a side that no pump fills
+    assert_allclose(charted[compared], least_lifted[compared], rtol=1e-8)
+
+
 class Swing(Mechanism):
     """A boom swung by two opposed cylinders, crossed on two lines, so far that both lines turn it back."""
 
@@ -394,6 +414,9 @@ def test_a_pose_where_both_of_two_crossed_lines_drive_one_way_is_refused_and_tol
     assert "nan" not in "".join(told.values()) and told["FAIL lifting left b"].endswith("keep away from these.")
     assert "grows without bounds at phi = -61.03 deg" in told["FAIL lifting left a"]
     assert f"{np.ptp(Swing.a.oil(Swing().sweep(2001))) / litre:.2f} l from end to end" in told["ok   oil a"]
+    motion, way = Swing().at(phi=20 * deg), (0.0, -1.0)  # the other line holds its own load
+    most_lifted = pulling("T", way, Swing.b.capacity(motion, "T", along=way), motion)
+    assert_allclose(Swing.b.pressure(motion, ["load", most_lifted]), 200 * bar, rtol=1e-9)
     with pytest.raises(SingularError, match="condition infinite"):
         Swing.left.thrust(Swing().at(phi=-66 * deg))
 

@@ -272,6 +272,18 @@ class Domain:
             return True
         return self.over.shape == "path" and len(self.motion.strokes) > 1 and bool(self.running)
 
+    def goings(self, strokes: Mapping[str, FloatArray]) -> list[dict[str, FloatArray]]:
+        """Return how the strokes of a path go on at a place of it, as it is on one leg, or where two meet."""
+        ends = {name: np.ravel(value) for name, value in self.motion.strokes.items()}
+        sizes = [np.ptp(value) or 1.0 for value in ends.values()]
+        corners, place = (np.array([*each.values()], float).T / sizes for each in (ends, strokes))
+        steps = np.diff(corners, axis=0)
+        along = np.clip(((place - corners[:-1]) * steps).sum(axis=1) / np.maximum((steps**2).sum(axis=1), 1e-300), 0.0, 1.0)
+        off = np.linalg.norm(corners[:-1] + along[:, None] * steps - place, axis=1)
+        moving = steps.any(axis=1)
+        legs = np.flatnonzero(moving & (off <= off[moving].min() + 1e-9))
+        return [{name: np.asarray(value[leg + 1] - value[leg]) for name, value in ends.items()} for leg in legs]
+
     @property
     def width(self) -> dict[str, float]:
         """How broad a place is at the least that is surely found, of each stroke that runs; none where only poses are looked at."""
@@ -681,11 +693,20 @@ class Judge:
         return replace(self.acting, case=case, direction=answer.direction or None, drive=answer.drive or None)
 
     def there(self, answer: Answer) -> Motion:
-        """Return the pose of an answer of one design, of a path in time at its instant."""
-        way = next((each.motion for each in self.places if each.over.name == answer.over and each.instants is not None), self.motion)
+        """Return the pose of an answer of one design, of a path as it goes on there, of one in time at its instant."""
+        domain = next((each for each in self.places if each.over.name == answer.over), self.places[0])
+        way = self.motion if domain.instants is None else domain.motion
         strokes = {name: np.asarray(value) for name, value in answer.strokes.items()}
         key = "there", *strokes, np.array([*strokes.values(), answer.time], float).tobytes()
-        return way._once(key, lambda: way._there(strokes, answer.time))
+        if domain.instants is not None or not domain.moves_along:
+            return way._once(key, lambda: way._there(strokes, answer.time))
+        ways = [Motion(self.plan, self.designs, strokes, "nan", tangent=going) for going in domain.goings(strokes)]
+        question = answer.question.left if isinstance(answer.question, Constraint) else answer.question
+        leaf = next((each for each in getattr(question, "leaves", ()) if isinstance(each.quantity, Request)), None)
+        if len(ways) == 1 or leaf is None:
+            return ways[0]
+        request = leaf.quantity.under(self.situation(answer))  # where two legs meet the answer is of one of them
+        return min(ways, key=lambda way: abs(float(request.of(way)) - answer.value))
 
     def alone_at(self, answer: Answer) -> Judge:
         """Return the judge of the pose and the situation of an answer alone; this one along a path, where forces follow the way."""

@@ -7,6 +7,7 @@ import pytest
 
 from linkage import (
     LEFT,
+    RIGHT,
     Acting,
     Crank,
     DefinitionError,
@@ -15,12 +16,14 @@ from linkage import (
     Ground,
     LoadCase,
     Mechanism,
+    OnLink,
     Over,
     PinFriction,
     Stroke,
     Weight,
     deg,
     max_table,
+    most,
     pin_force,
     pin_forces,
 )
@@ -129,3 +132,34 @@ def test_results_say_themselves_where_and_what():
         max_table(pin_forces(Knot().sweep(3)), over=Over())
     with pytest.raises(DefinitionError, match="is no result of pin_forces"):
         max_table(3)
+
+
+def test_the_table_of_a_path_goes_on_as_the_path_does():
+    """With friction, along a path of two strokes with a corner: each row is the greatest of the forces along the path, from its one way."""
+
+    class Boom(Mechanism):
+        lift = Stroke(0.0, 0.3)
+        tilt = Stroke(0.0, 0.2)
+        O = Ground(0, 0)
+        A = Ground(0.2, -0.6)
+        B = Dyad(A, O, AB=0.75 + lift, OB=0.6, side=RIGHT)
+        T = OnLink(O, B, OT=1.5, BOT=10 * deg)
+        C = OnLink(O, B, OC=0.8, BOC=25 * deg)
+        D = Dyad(C, T, CD=0.7 + tilt, TD=0.4, side=LEFT)
+        L = OnLink(T, D, TL=0.5, DTL=-100 * deg)
+        load = Weight(L, mass=300)
+        rub_T = PinFriction(T, radius=0.04, coefficient=0.2)
+        rub_O = PinFriction(O, radius=0.04, coefficient=0.2)
+        path = Over.path(lift=[0.0, 0.15, 0.15, 0.3], tilt=[0.2, 0.2, 0.05, 0.0])
+
+    machine = Boom()
+    rows = {(row.point, row.on): row for row in max_table(machine)}
+    assert {row.direction for row in rows.values()} - {"frictionless"}
+    for number in (301, 302):
+        for direction in ("extending", "retracting", "frictionless"):
+            seen = pin_forces(machine.sweep(number, over="path"), direction=direction)
+            for joint in (each for each in seen.joints if each.has_force):
+                assert np.max(joint.size) <= rows[joint.point, joint.on].force * (1.0 + 1e-9)
+    for row in rows.values():
+        (answer,) = machine.answers([most(pin_force(row.point, row.on, by=row.by))])
+        assert row.force == pytest.approx(answer.value, rel=1e-12)

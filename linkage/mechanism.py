@@ -658,7 +658,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         Parameters
         ----------
         over : Over, str or mapping, optional
-            The domain, or the name of a declared one; by default all that the machine runs.
+            The domain, or the name of a declared one; by default all that the machine runs, of a load case where that occurs.
         acting : Acting, optional
             Loads, load case, direction and rates in one.
 
@@ -680,7 +680,10 @@ class Mechanism(Shown, metaclass=MechanismType):
             else:
                 what = "an Over is expected, such as Over(S=(0.0, 0.2)), or several"
                 raise DefinitionError(f"{self.plan.title}: over={cited(each)}: {what}.")
-        return Judge(self.plan, self._values, overs, acting, self)
+        case = getattr(acting, "case", None) if over is None else None
+        case = getattr(case, "name", case)
+        occurring = [each for each in overs if case is None or isinstance(each, Motion) or each.cases is None or case in each.cases]
+        return Judge(self.plan, self._values, occurring or overs, acting, self)
 
     def featured(self) -> Featured:
         """Return the features that pictures of this design show by default: `about`, unless a machine defines more here.

@@ -6,7 +6,7 @@ from argparse import Namespace
 from pathlib import Path
 
 from ..disk import check_place, is_one_file, replacing_text
-from ..errors import ensure
+from ..errors import DefinitionError, ensure
 from ..units import parse
 from .command import Command, option, repeatable, say_remark
 from .settings import pair
@@ -26,7 +26,7 @@ from .settings import pair
 def import_command(options: Namespace) -> int:
     """Read a file, look whether it assembles, and write the machine."""
     from ..sketch import read_sketch, sketch_text
-    from ..sketch.foreign_files import SUFFIXES
+    from ..sketch.foreign_files import SUFFIXES, is_address
 
     scale = None if options.scale is None else parse(options.scale, "length")
     layers: dict[str, list[str]] = {}
@@ -38,12 +38,18 @@ def import_command(options: Namespace) -> int:
         found = found.rounded(parse(options.round, "length"))
     for note in found.notes:
         say_remark(note)
-    path = Path(f"{found.name.lower()}.toml" if options.output is None else options.output)
+    own = found.name.lower() if is_address(options.file) else Path(options.file).stem
+    path = Path(f"{own}.toml" if options.output is None else options.output)
     check_place(path)
     ensure(not is_one_file(path, options.file), f"{path} is the file that is imported and stays as it is; choose another name, -o FILE.")
     is_free = not path.exists() or (options.output is not None and path.suffix.lower() not in SUFFIXES)
     ensure(is_free, f"{path} is there already and stays as it is; choose another name, -o FILE.")
-    machine = found.to_class()
+    try:
+        machine = found.to_class()
+    except DefinitionError as error:  # nothing is written that one could look at
+        links = "; ".join(" ".join(points) for points in found.links.values())
+        read = f"What was read: fixed {' '.join(found.fixed) or 'nothing'}; links {links or 'none'}"
+        raise type(error)(f"{error} {read}; drives {'; '.join(' '.join(each.ends) for each in found.drives.values()) or 'none'}.") from None
     text = sketch_text(found, path.suffix.lower())
     sizes = found.weights or any(drive.bore for drive in found.drives.values())
     if path.suffix.lower() not in (".toml", ".py") and (found.forces or (sizes and path.suffix.lower() != ".json")):

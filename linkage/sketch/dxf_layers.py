@@ -95,7 +95,11 @@ class DrawingReader:
             what = f"{kind} of the layer {each.dxf.layer} with {len(self.met(corners_of(each)))} pins"
             self.found.left_out.append(f"{what}{self.loose_ends(each)}")
         for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
-            if not any({*keys} < {*other} for other in bodies) and not any({*keys} == {*other} for other in bodies[:number]):
+            wider = next((other for other in bodies if {*keys} < {*other}), None)
+            if wider is not None:
+                pins, others = (" ".join(self.found.points[key].name for key in each) for each in (keys, wider))
+                self.found.left_out.append(f"a link {pins}, whose pins all lie on the link {others}")
+            elif not any({*keys} == {*other} for other in bodies[:number]):
                 self.found.add_link("", keys)
         for each in self.entities_on(("LINE",), "slides"):
             P, Q = corners_of(each)

@@ -228,7 +228,10 @@ class MachineSketch:
         return {name: plain_entry(table) for name, table in found.items() if table}
 
     def check_driven(self) -> None:
-        """Raise DefinitionError where nothing drives the sketch, naming possible drives."""
+        """Raise DefinitionError where nothing stands still, and where nothing drives the sketch, naming possible drives."""
+        stands = self.fixed or any(isinstance(each.along, (int, float)) for each in self.slides.values())
+        remedy = "In a drawing hatch a pin, or put its circle on the layer ground; in a table write `fixed` beside it"
+        ensure(stands, f"{self.name}: no pin is fixed, so that nothing says where the frame is. {remedy}.")
         if self.drives:
             return
         arms = [(P, Q) for points in self.links.values() for P in points for Q in points if P in self.fixed and Q not in self.fixed]

@@ -25,7 +25,11 @@ WRONG = {
     "nan.linkage2": (LINKAGE.replace('y="0.0"', 'y="nan"', 1), "is no finite number"),
     "lost.linkage2": (LINKAGE.replace('<connector id="2"/>', '<connector id="77"/>', 1), "names the point '77'"),
     "big.csv": (HEAD + "#" * 1_000_001, "larger than 1 MB"),
-    "many.csv": (HEAD + "".join(f"point,P{n},{n},{n * n},\nlink,,,,P0 P{n}\n" for n in range(150)) + "crank,,,,P0 P1", "too many"),
+    "afloat.csv": (HEAD + "point,A,0,0,\npoint,B,9,0,\npoint,C,9,9,\nlink,,,,A B\ncylinder,,,,B C", "no pin is fixed"),
+    "many.csv": (
+        HEAD + "point,O,-9,0,fixed\n" + "".join(f"point,P{n},{n},{n * n},\nlink,,,,P0 P{n}\n" for n in range(150)) + "crank,,,,P0 P1",
+        "too many",
+    ),
     "code.csv": ("kind,name,x [mm],y [mm],what\npoint,O,__import__('os').abort(),0,fixed\n", "is no finite number"),
     "twice.csv": ("kind,name,x [mm],y [mm],what\npoint,O,0,0,fixed\npoint,O,1,0,\n", "stands twice"),
     "head.csv": ("a,b\n1,2\n", "begins with kind,name"),

@@ -10,14 +10,24 @@ from math import cos, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import LinkageError, unwarned
+from ..errors import LinkageError, ensure, unwarned
 from ..language import noted, said, translated
 from ..loads import PLAIN_CASE, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, least, most, places_text, stroke_unit
 from ..plan import Plan
 from ..plan.members import FRAME
 from ..program import FloatArray
-from ..statics import JointForce, PinForces, PinLoad, drive_force, judged_table, pin_forces, thrust_from_forces
+from ..statics import (
+    JointForce,
+    PinForces,
+    PinLoad,
+    drive_force,
+    held_in_case,
+    holders_of,
+    judged_table,
+    pin_forces,
+    thrust_from_forces,
+)
 from ..units import factor, shown_in, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Section, TableBlock
@@ -276,6 +286,8 @@ class Stop:
     @classmethod
     def of(cls, poses: Motion, point: str, held: Iterable[str], acting: Acting) -> Stop:
         """Return it at poses; raises LinkageError where there are no joint forces."""
+        bends = holders_of(held_in_case(poses, acting).plan).changes_shares
+        ensure(not bends, "cylinders of a line share otherwise while it pulls than while it pushes, and no unit force tells which")
         own = pin_forces(poses, acting=acting)
         across, up = (pin_forces(poses, acting=Acting(loads=[Force(point, way)])) for way in ((1.0, 0.0), (0.0, 1.0)))
         elements = poses.plan.of_kind(TwoPoint)

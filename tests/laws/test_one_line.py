@@ -54,6 +54,7 @@ from linkage import (
     pin_forces,
     ref,
 )
+from linkage.documents.forces import Stop
 from linkage.formulas import equations
 from linkage.loads import ForceElement
 from linkage.motion import least, most
@@ -417,6 +418,8 @@ def test_a_pose_where_both_of_two_crossed_lines_drive_one_way_is_refused_and_tol
     motion, way = Swing().at(phi=20 * deg), (0.0, -1.0)  # the other line holds its own load
     most_lifted = pulling("T", way, Swing.b.capacity(motion, "T", along=way), motion)
     assert_allclose(Swing.b.pressure(motion, ["load", most_lifted]), 200 * bar, rtol=1e-9)
+    with pytest.raises(DefinitionError, match="share otherwise"):  # which a stop's unit forces do not tell
+        Stop.of(motion, "T", ["left", "right"], Acting())
     with pytest.raises(SingularError, match="condition infinite"):
         Swing.left.thrust(Swing().at(phi=-66 * deg))
 

@@ -53,7 +53,7 @@ def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object
         word = said_of(silent, "{rules}, {n} says nothing", "{rules}, {n} say nothing", rules=word)
     passed = sum(each.ok is False for each in limited)
     if passed:
-        word = said_of(passed, "{rules}, {n} limit is passed", "{rules}, {n} limits are passed", rules=word)
+        word = said_of(passed, "{rules}, {n} limit is exceeded", "{rules}, {n} limits are exceeded", rules=word)
     mark = Mark(False if broken else None if silent or not judged else True, word)
     return shown, mark, found, "; ".join(dict.fromkeys(broken))
 

@@ -287,7 +287,7 @@ def test_powers_of_units_are_raised_and_names_are_not():
 
 def test_the_first_page_names_each_rule_and_limit_that_is_not_kept():
     facts = dict(shown(MowerLift).facts)
-    assert facts["Not kept"] == "lifting; kz; pd" and facts["Verdicts"] == "7 of 8 rules kept, 2 limits are passed"
+    assert facts["Not kept"] == "lifting; kz; pd" and facts["Verdicts"] == "7 of 8 rules kept, 2 limits are exceeded"
 
 
 def texts_of(block):

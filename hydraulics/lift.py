@@ -443,10 +443,11 @@ class LiftingCylinder:
                 pump=pump, where=found.place,
             )  # fmt: skip
             return Verdict("lifting", False, text, answer=found)
-        driven = self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0)) if found.unlimited else ()
-        free = said(
-            "; the load drives {where}, there it is not limited by this cylinder{remedy}", where=with_and(driven), remedy=self.remedy_both()
-        ) if driven and self.ram.side != "both" else ""  # fmt: skip
+        free = ""
+        if found.unlimited and self.ram.side != "both":
+            driven = with_and(self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0))) or said("in places")
+            by = {"where": driven, "remedy": self.remedy_both()}
+            free = said("; the load drives {where}, there it is not limited by this cylinder{remedy}", **by)
         says = said("at {pump} the least reserve is {least:.3f}, {where}", pump=pump, least=found.value, where=found.place)
         if found.ok:
             return Verdict("lifting", True, f"{says}{free}.", answer=found)

@@ -99,12 +99,13 @@ def left_open(subject: ReportSubject) -> Iterator[str]:
 # The standards that are cited, each by the rules and texts that cite it.
 
 RUSSIAN, CODE, OECD = "\u0413\u041e\u0421\u0422", "\u041a\u043e\u0434\u0435\u043a\u0441", "\u041e\u042d\u0421\u0420"
-STANDARD = re.compile(rf"\b(?:ISO(?:/TS|/TR)?|EN|DIN|GOST|{RUSSIAN}|ASABE|SAE|JIS) ?[A-Z]?\d[\d.-]*\d|\bOECD Code \d+|\b{CODE} \d+ {OECD}")
+BODIES = rf"ISO(?:/TS|/TR)?|EN|DIN|GOST|{RUSSIAN}|ASABE|SAE|JIS|NFPA"
+STANDARD = re.compile(rf"\b(?:{BODIES}) ?[A-Z]?\d[\d.-]*\d|\bOECD Code \d+|\b{CODE} \d+ {OECD}")
 GRAVITY = "ISO 80000-4"
 
 
 def standards_section(subject: ReportSubject, verdicts: Iterable[Verdict]) -> Section:
-    """Return the section of the standards that rules and inputs of a report cite, each with its uses."""
+    """Return the section of the standards that rules, remarks and inputs of a report cite, each with its uses."""
     uses: dict[str, list[str]] = {}
 
     def cite(text: str, use: str) -> None:
@@ -112,8 +113,7 @@ def standards_section(subject: ReportSubject, verdicts: Iterable[Verdict]) -> Se
             uses.setdefault(name, []).append(use)
 
     for each in verdicts:
-        if each.is_rule:
-            cite(each.sentence, said("rule: {rule}", rule=each.heading))
+        cite(each.sentence, said("rule: {rule}", rule=each.heading) if each.is_rule else said("remark"))
     for name, note in subject.notes.items():
         cite(note, said("source of {name}", name=name))
     cite(subject.machine.__doc__ or "", said("description of the machine"))

@@ -669,7 +669,10 @@ class Mechanism(Shown, metaclass=MechanismType):
         """
         declared = {each.name: each for each in self.overs if each.name}
         overs: list[Over | Motion] = []
-        given: Sequence[object] = self.overs if over is None else over if is_listed(over) else (over,)
+        case = getattr(acting, "case", None)
+        name = getattr(case, "name", case)
+        occurring = [each for each in self.overs if name is None or each.cases is None or name in each.cases]
+        given: Sequence[object] = (occurring or self.overs) if over is None else over if is_listed(over) else (over,)
         for each in given or (over,):
             if isinstance(each, str):
                 overs.append(declared[known_name("Over", each, declared, where=self.plan.title)])
@@ -680,10 +683,7 @@ class Mechanism(Shown, metaclass=MechanismType):
             else:
                 what = "an Over is expected, such as Over(S=(0.0, 0.2)), or several"
                 raise DefinitionError(f"{self.plan.title}: over={cited(each)}: {what}.")
-        case = getattr(acting, "case", None) if over is None else None
-        case = getattr(case, "name", case)
-        occurring = [each for each in overs if case is None or isinstance(each, Motion) or each.cases is None or case in each.cases]
-        return Judge(self.plan, self._values, occurring or overs, acting, self)
+        return Judge(self.plan, self._values, overs, acting, self)
 
     def featured(self) -> Featured:
         """Return the features that pictures of this design show by default: `about`, unless a machine defines more here.

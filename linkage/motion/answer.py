@@ -48,7 +48,7 @@ NONE_LOST = LostPlaces()
 
 PerDesign: TypeAlias = Any
 """What one design has, of a batch an array over its designs."""
-PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over", "time")
+PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over", "time", "leg")
 """What each design of a batch has an answer of its own."""
 
 
@@ -86,6 +86,8 @@ class Answer:
         The instant [s] over a path in time, else NaN.
     named : frozenset of str
         What sentences have to name, since there are several: "case", "direction", "drive", "side", "over".
+    leg : int or array
+        Which leg of a path it is on, from 0; -1 of a box and of poses.
     """
 
     question: object
@@ -109,6 +111,7 @@ class Answer:
     """When it is [s], of a path in time; NaN of any other. Of two phases that meet there it is in the one that it lies in."""
     named: frozenset[str] = frozenset()
     """What has to be named, as there are several: "case", "direction", "drive", "side", "over"."""
+    leg: PerDesign = -1
 
     def __repr__(self) -> str:
         kept = "" if np.ndim(self.value) or self.ok is None else ": kept" if self.ok else ": not kept"

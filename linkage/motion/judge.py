@@ -59,7 +59,7 @@ from .measures import (
 from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
 from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force, measured_in, situated, stroke_of
-from .search import Span, assembly_error_at, below_zero, extremum_reached, least_margins, strokes_moved
+from .search import Span, assembly_error_at, below_zero, extremum_reached, least_margins, legs_of, strokes_moved
 from .strokes import at_values, strokes_over_axes
 
 Question: TypeAlias = "Measure | Condition"
@@ -137,6 +137,7 @@ class Candidate:
     lawless: PerDesign = 0.0
     unlimited: PerDesign = 0.0
     time: PerDesign = np.nan
+    leg: PerDesign = -1
     margin: PerDesign = np.nan
     undefined: PerDesign = False
     """Whether its measures have values and what is calculated from these has none, such as 0 / 0 or the root of what is negative."""
@@ -160,7 +161,7 @@ class Candidate:
             return self
         own = {
             name: np.broadcast_to(getattr(self, name), shape)[place]
-            for name in ("value", "margin", "unbounded", "lawless", "unlimited", "time", "undefined")
+            for name in ("value", "margin", "unbounded", "lawless", "unlimited", "time", "leg", "undefined")
         }
         strokes = {name: np.broadcast_to(value, shape)[place] for name, value in self.strokes.items()}
         return replace(self, strokes=strokes, design=place, **own)
@@ -272,18 +273,6 @@ class Domain:
             return True
         return self.over.shape == "path" and len(self.motion.strokes) > 1 and bool(self.running)
 
-    def goings(self, strokes: Mapping[str, FloatArray]) -> list[dict[str, FloatArray]]:
-        """Return how the strokes of a path go on at a place of it, as it is on one leg, or where two meet."""
-        ends = {name: np.ravel(value) for name, value in self.motion.strokes.items()}
-        sizes = [np.ptp(value) or 1.0 for value in ends.values()]
-        corners, place = (np.array([*each.values()], float).T / sizes for each in (ends, strokes))
-        steps = np.diff(corners, axis=0)
-        along = np.clip(((place - corners[:-1]) * steps).sum(axis=1) / np.maximum((steps**2).sum(axis=1), 1e-300), 0.0, 1.0)
-        off = np.linalg.norm(corners[:-1] + along[:, None] * steps - place, axis=1)
-        moving = steps.any(axis=1)
-        legs = np.flatnonzero(moving & (off <= off[moving].min() + 1e-9))
-        return [{name: np.asarray(value[leg + 1] - value[leg]) for name, value in ends.items()} for leg in legs]
-
     @property
     def width(self) -> dict[str, float]:
         """How broad a place is at the least that is surely found, of each stroke that runs; none where only poses are looked at."""
@@ -339,7 +328,7 @@ class Domain:
         """Return the same, looked for."""
         asked, shape = RowFunction(self, rows), (len(rows), *self.motion._design_shape)
         self.program = max(self.program, asked.program, key=len)
-        time = np.full(shape, np.nan)
+        time, leg = np.full(shape, np.nan), np.full(shape, -1)
         if self.over.shape == "poses" or not self.motion.strokes:  # nothing between the poses
             with np.errstate(all="ignore"):
                 flat = asked(self.motion).reshape(*shape, -1)
@@ -354,7 +343,7 @@ class Domain:
                 warn(max(near, key=lambda each: (each.estimate == each.estimate, each.estimate)))
             value, unbounded = (np.broadcast_to(np.asarray(each), shape) for each in (found.value, found.unbounded))
             strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}
-            time = np.broadcast_to(np.asarray(found.time), shape)
+            time, leg = (np.broadcast_to(np.asarray(each), shape) for each in (found.time, found.leg))
         lawless, unlimited = (np.broadcast_to(each, shape) for each in (asked.seen.lawless, asked.seen.unlimited))
         pieces = list[Candidate]()
         for k, row in enumerate(rows):
@@ -364,7 +353,7 @@ class Domain:
                     worst = np.where(value[k] > 0.0, 1.0 / value[k], np.nan)
             elif row.stays_at_zero:
                 worst = np.maximum(value[k], 0.0)
-            pieces.append(Candidate((row,), np.asarray(worst), where, unbounded[k], lawless[k], unlimited[k], time[k]))
+            pieces.append(Candidate((row,), np.asarray(worst), where, unbounded[k], lawless[k], unlimited[k], time[k], leg[k]))
         return pieces, asked.seen
 
     # -- what is lost ------------------------------------------------------------------------------------
@@ -700,13 +689,9 @@ class Judge:
         key = "there", *strokes, np.array([*strokes.values(), answer.time], float).tobytes()
         if domain.instants is not None or not domain.moves_along:
             return way._once(key, lambda: way._there(strokes, answer.time))
-        ways = [Motion(self.plan, self.designs, strokes, "nan", tangent=going) for going in domain.goings(strokes)]
-        question = answer.question.left if isinstance(answer.question, Constraint) else answer.question
-        leaf = next((each for each in getattr(question, "leaves", ()) if isinstance(each.quantity, Request)), None)
-        if len(ways) == 1 or leaf is None:
-            return ways[0]
-        request = leaf.quantity.under(self.situation(answer))  # where two legs meet the answer is of one of them
-        return min(ways, key=lambda way: abs(float(request.of(way)) - answer.value))
+        corners, _ = legs_of(domain.motion.strokes)
+        going = {name: at[answer.leg + 1] - at[answer.leg] for name, at in corners.items()}
+        return Motion(self.plan, self.designs, strokes, "nan", tangent=going)
 
     def alone_at(self, answer: Answer) -> Judge:
         """Return the judge of the pose and the situation of an answer alone; this one along a path, where forces follow the way."""
@@ -849,12 +834,13 @@ class Judge:
             with np.errstate(all="ignore"):
                 value, margin = valued(question, values)
             unbounded = np.asarray(np.any([each.unbounded for each in chosen], axis=0) if chosen else False)
-            where, time = next(((each.strokes, each.time) for each in chosen if each.strokes), ({}, np.nan))
+            where, time, leg = next(((each.strokes, each.time, each.leg) for each in chosen if each.strokes), ({}, np.nan, -1))
             lawless = np.asarray(reduce(np.fmax, (each.lawless for each in chosen), 0.0))
             unlimited = np.asarray(reduce(np.fmax, (each.unlimited for each in chosen), 0.0))
             undefined = np.asarray(np.isnan(margin) & ~np.any([np.isnan(each.value) for each in chosen], axis=0))
             rows = tuple(each.rows[0] for each in chosen)
-            made.append((place, Candidate(rows, value, where, unbounded, lawless, unlimited, np.asarray(time), margin, undefined, seen)))
+            found = Candidate(rows, value, where, unbounded, lawless, unlimited, np.asarray(time), leg, margin, undefined, seen)
+            made.append((place, found))
         return made
 
     def lost_of(self, place: Domain, candidate: Candidate) -> LostPlaces:
@@ -923,6 +909,7 @@ class Judge:
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
             place.over.name, lost, float(worst.unlimited), outside, place.width if worst.seen is not None else {}, count, units,
             measures_of(self.plan, question), float(worst.time) if known else np.nan, named,
+            int(worst.leg) if known else -1,
         )  # fmt: skip
 
     def reached_by(self, design: tuple[int, ...]) -> Answer:

@@ -64,20 +64,21 @@ def extremum_reached(motion: Motion, f: Function, sense: float, *, everywhere: b
     if len(motion._stroke_shape) > 1 and len(strokes_moved(motion)) > 1:
         box = InBox(motion, f, sense, everywhere=everywhere)
         (value, unit, unbounded), front = highest_in(box), box.front
-        strokes, time = box.strokes(unit), None
+        strokes, time, leg = box.strokes(unit), None, None
     else:
         between = OnLegs(motion, f, sense, everywhere=everywhere)
         found, front = highest(between.look, between.counts), between.front
         value, unbounded, strokes = found.value, found.unbounded, between.strokes(found.leg, found.t)
-        time = between.time(found.leg, found.t)
+        time, leg = between.time(found.leg, found.t), found.leg
     shape, units = (*front, *motion._design_shape), {name: stroke_unit(motion.plan, name) for name in motion.strokes}
 
     def shaped(values: npt.NDArray[Any]) -> PerDesign:
         return values.reshape(shape) if shape else values.item()  # (K, D); a single one as a plain number
 
     status = shaped(np.where(unbounded, UNBOUNDED, OF_VALUE))
-    at = np.nan if time is None else shaped(time)
-    return Answer(f, shaped(sense * value), None, status, {name: shaped(each) for name, each in strokes.items()}, units=units, time=at)
+    at, on = np.nan if time is None else shaped(time), -1 if leg is None else shaped(leg)
+    places = {name: shaped(each) for name, each in strokes.items()}
+    return Answer(f, shaped(sense * value), None, status, places, units=units, time=at, leg=on)
 
 
 def strokes_moved(motion: Motion) -> tuple[str, ...]:
@@ -216,6 +217,18 @@ def corners(values: FloatArray) -> Sequence[int]:
     return found
 
 
+def legs_of(strokes: Mapping[str, FloatArray]) -> tuple[dict[str, FloatArray], FloatArray]:
+    """Return strokes [SI] at the corners (legs + 1,) of the way that they go, and how long each leg is, in parts of their ranges."""
+    values = np.array([np.ravel(value) for value in strokes.values()])
+    if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
+        values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
+    ranges = np.ptp(values, axis=1, keepdims=True)
+    scaled = values / np.where(ranges > 0.0, ranges, 1.0)
+    places = corners(scaled)
+    lengths = np.abs(np.diff(scaled[:, places], axis=1)).max(axis=0)
+    return {name: value[places] for name, value in zip(strokes, values, strict=True)}, lengths
+
+
 Function: TypeAlias = Callable[[Motion], Any]
 """A function of a motion: a number for each pose, shape (...), or several, shape (k, ...); NaN where it has none."""
 
@@ -269,14 +282,7 @@ class OnLegs:
                 lengths = np.maximum(lengths, np.abs(rates).max(axis=1) * lasting / (travel or np.inf))
             self.corners: Mapping[str, FloatArray] = self.instants.at_times(breaks).strokes
         else:
-            values = np.array([np.ravel(value) for value in strokes.values()])
-            if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
-                values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
-            ranges = np.ptp(values, axis=1, keepdims=True)
-            scaled = values / np.where(ranges > 0.0, ranges, 1.0)
-            places = corners(scaled)
-            lengths = np.abs(np.diff(scaled[:, places], axis=1)).max(axis=0)
-            self.corners = {name: value[places] for name, value in zip(strokes, values, strict=True)}
+            self.corners, lengths = legs_of(strokes)
         share = SAMPLES * min(1.0, LONGEST / max(float(lengths.sum()), 1e-300))
         self.counts = tuple(int(count) for count in np.maximum(np.ceil(share * lengths - 1e-6), 2.0))
         self.leg, self.t = leg, t = samples(self.counts)

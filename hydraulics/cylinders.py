@@ -1508,6 +1508,12 @@ class Circuit(OnLines, HasVerdicts):
         sides = [(ram, SIDES if ram.side not in SIDES else (ram.side,)) for ram in self.members(members)]
         return [(ram, Chamber(ram, side)) for ram, own in sides for side in own]
 
+    def volume(self, motion: Poses, start: Callable[[Ram], Array] | None = None) -> Array:
+        """Return how much larger its chambers are than at some lengths of its cylinders [m], by default at 0, shape (...) [m3]."""
+        chambers = ((ram, each.side, motion.distance(ram.A, ram.B)) for ram, each in self.filling(motion.plan.members))
+        lengths = ((ram, side, np.zeros(()) if start is None else start(ram), end) for ram, side, end in chambers)
+        return reduce(np.add, [ram.filled(side, motion, begin, end) for ram, side, begin, end in lengths])
+
     def pressure_shares(self, members: NamedMembers) -> tuple[Share, ...]:
         """Return the share of its line's pressure in each cylinder."""
         return tuple(Share(ram, partial(chamber_area, chamber, ram)) for ram, chamber in self.filling(members))

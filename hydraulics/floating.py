@@ -119,8 +119,7 @@ class GasLine(Circuit):
             The volume [m3].
         """
         require_poses(motion)
-        chambers = ((ram, each.side, motion.distance(ram.A, ram.B)) for ram, each in self.filling(motion.plan.members))
-        return reduce(np.add, [ram.filled(side, motion, self.length_charged(motion, ram), length) for ram, side, length in chambers])
+        return self.volume(motion, partial(self.length_charged, motion))
 
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         return self.line_pressure(motion, acting)

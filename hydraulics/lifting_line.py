@@ -13,7 +13,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial, reduce
+from functools import partial
 from typing import Any, Unpack, cast
 
 import numpy as np
@@ -566,12 +566,13 @@ class LiftLine(Circuit):
         Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards. What one of
         several presses out fills the others.
         """
-        found = []
-        for ram in self.rams(motion):
+        found, rams = [], self.rams(motion)
+        for ram in rams:
             ram.travel(motion)  # refuses a motion without a pose
-            if self.fills_others(motion):
-                low, high = (np.asarray(each(motion, self.volume).value) for each in (lowest, greatest))
-                return np.asarray(high - low)[()]
+        if self.fills_others(motion):
+            low, high = (np.asarray(each(motion, self.volume).value) for each in (lowest, greatest))
+            return np.asarray(high - low)[()]
+        for ram in rams:
             low, high = (each.reshape((*each.shape, *(1,) * len(motion._stroke_shape))) for each in ram.extent(motion))
             found.append(for_designs(motion, ram.taken(motion, low, high)))
         return np.asarray(sum(found))[()]
@@ -580,11 +581,6 @@ class LiftLine(Circuit):
         """Return whether it is on several cylinders, on one chamber of each or more, so that one may fill the other."""
         rams = self.rams(motion)
         return len(rams) > 1 and all(ram.side != "both" for ram in rams)
-
-    def volume(self, motion: Poses) -> Array:
-        """Return the oil in its chambers, shape (...) [m3], up to a constant."""
-        chambers = ((ram, each.side, motion.distance(ram.A, ram.B)) for ram, each in self.filling(motion.plan.members))
-        return reduce(np.add, [ram.filled(side, motion, np.zeros(()), length) for ram, side, length in chambers])
 
     def time(self, motion: Motion) -> Array:
         """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""

@@ -86,14 +86,15 @@ class DrawingReader:
         self.found.ensure(self.pins, "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
         drawn = [*self.entities_on(LINES, "links")] or [*self.entities_on(LINES, "")]
         met = [(each, self.met(corners_of(each))) for each in drawn]
-        bodies, loose = [keys for _, keys in met if len(keys) > 1], [each for each, keys in met if len(keys) < 2]
-        for edges, corners in outlines(loose, MEETS * self.found.size):
+        bodies, joined = [keys for _, keys in met if len(keys) > 1], list[Any]()
+        for edges, corners in outlines([each for each, keys in met if len(keys) < 2], MEETS * self.found.size):
             bodies += [keys] if len(keys := self.met(corners)) > 1 else []
-            loose = [each for each in loose if not any(each is edge for edge in edges)]
-        for each in loose:
-            kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
-            what = f"{kind} of the layer {each.dxf.layer} with {len(self.met(corners_of(each)))} pins"
-            self.found.left_out.append(f"{what}{self.loose_ends(each)}")
+            joined += edges
+        for each, keys in met:
+            if len(keys) < 2 and not any(each is edge for edge in joined):
+                kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
+                what = f"{kind} of the layer {each.dxf.layer} with {len(keys)} pins"
+                self.found.left_out.append(f"{what}{self.loose_ends(each)}")
         for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
             wider = next((other for other in bodies if {*keys} < {*other}), None)
             if wider is not None:

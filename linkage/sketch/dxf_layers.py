@@ -6,7 +6,7 @@ An outline is one polyline, or lines and arcs from end to end.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
+from itertools import combinations, pairwise
 from math import dist, hypot, inf
 from typing import Any
 
@@ -56,6 +56,8 @@ class DrawingReader:
         self.role = {layer: role for role, names in layers.items() for layer in names}
         self.pins: dict[str, tuple[Place, float]] = {}
         """Each pin's centre and radius."""
+        self.circles: dict[str, list[Any]] = {}
+        """The circles around each pin's centre, such as one of each part that it joins."""
 
     def entities_on(self, kinds: Sequence[str], *roles: str) -> Iterator[Any]:
         """Yield the entities of some kinds on the layers of some roles; "" is any other layer."""
@@ -76,32 +78,18 @@ class DrawingReader:
         for circle in (*circles, *ground):
             x, y, _ = map(float, circle.ocs().to_wcs(circle.dxf.center))
             place, radius = (x, y), float(circle.dxf.radius)
-            if any(dist(place, centre) <= radius for centre, _ in self.pins.values()):
-                continue  # a pin and its washer
+            there = next((key for key, (centre, size) in self.pins.items() if dist(place, centre) <= size), None)
+            if there is not None:  # a pin and its washer, or its hole in another part
+                self.circles[there].append(circle)
+                self.found.points[there].fixed |= circle in ground
+                continue
             far, word = min(((way_to(each, word, place), word) for word, each in words), default=(0.0, ""))
             key = f"P{len(self.pins) + 1}"
             is_hatched = any(hatch and surrounds(place, hatch) for hatch in hatches)
             self.found.add_point(key, word if far <= 4.0 * radius and word else key, *place, circle in ground or is_hatched)
-            self.pins[key] = place, radius
+            self.pins[key], self.circles[key] = (place, radius), [circle]
         self.found.ensure(self.pins, "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
-        drawn = [*self.entities_on(LINES, "links")] or [*self.entities_on(LINES, "")]
-        met = [(each, self.met(corners_of(each))) for each in drawn]
-        bodies, joined = [keys for _, keys in met if len(keys) > 1], list[Any]()
-        for edges, corners in outlines([each for each, keys in met if len(keys) < 2], MEETS * self.found.size):
-            bodies += [keys] if len(keys := self.met(corners)) > 1 else []
-            joined += edges
-        for each, keys in met:
-            if len(keys) < 2 and not any(each is edge for edge in joined):
-                kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
-                what = f"{kind} of the layer {each.dxf.layer} with {len(keys)} pins"
-                self.found.left_out.append(f"{what}{self.loose_ends(each)}")
-        for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
-            wider = next((other for other in bodies if {*keys} < {*other}), None)
-            if wider is not None:
-                pins, others = (" ".join(self.found.points[key].name for key in each) for each in (keys, wider))
-                self.found.left_out.append(f"a link {pins}, whose pins all lie on the link {others}")
-            elif not any({*keys} == {*other} for other in bodies[:number]):
-                self.found.add_link("", keys)
+        self.read_links()
         for each in self.entities_on(("LINE",), "slides"):
             P, Q = corners_of(each)
             keys = [key for key in self.met([P, Q]) if not self.found.points[key].fixed]
@@ -117,10 +105,60 @@ class DrawingReader:
                     what = f"a line of the layer {each.dxf.layer} that ends at {len(keys)} pins instead of two"
                     self.found.left_out.append(f"{what}{self.loose_ends(each)}")
 
+    def read_links(self) -> None:
+        """Enter the links, and tell which lines are none."""
+        drawn = [*self.entities_on(LINES, "links")] or [*self.entities_on(LINES, "")]
+        met = [(each, self.met(corners_of(each))) for each in drawn]
+        found = [(each, self.is_closed(corners_of(each)), keys) for each, keys in met if len(keys) > 1]
+        joined = list[Any]()
+        for edges, corners in outlines([each for each, keys in met if len(keys) < 2], MEETS * self.found.size):
+            found += [(edges[0], True, keys)] if len(keys := self.met(corners)) > 1 else []
+            joined += edges
+        names, bodies = self.in_parts(found)
+        for each, keys in met:
+            if len(keys) < 2 and not any(each is edge for edge in joined):
+                kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
+                what = f"{kind} of the layer {each.dxf.layer} with {len(keys)} pins"
+                self.found.left_out.append(f"{what}{self.loose_ends(each)}")
+        for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
+            wider = next((other for other in bodies if {*keys} < {*other}), None)
+            if wider is not None:
+                pins, others = (" ".join(self.found.points[key].name for key in each) for each in (keys, wider))
+                self.found.left_out.append(f"a link {pins}, whose pins all lie on the link {others}")
+            elif not any({*keys} == {*other} for other in bodies[:number]):
+                self.found.add_link(names[number], keys)
+        plates = [{*keys} for (_, is_plate, _), keys in zip(found, bodies, strict=True) if is_plate]
+        locked = [each for each in combinations(plates, 2) if each[0] != each[1] and len(each[0] & each[1]) > 1]
+        for both in locked[:1]:
+            one, other = (" ".join(self.found.points[key].name for key in self.pins if key in each) for each in both)
+            what = f"The outlines of {one} and {other} surround two pins or more together, so that neither could turn on the other"
+            remedy = "draw each part in a block or on a layer of its own, with a circle at each of its own pins"
+            self.found.notes.append(f"{what}; where one only lies over a pin, {remedy}.")
+
+    def in_parts(self, bodies: Sequence[tuple[Any, bool, list[str]]]) -> tuple[list[str], list[list[str]]]:
+        """Return the name of each body's part, "" where all are in one, and its pins without those in its outline that others draw.
+
+        A part is a block, or a layer where one block or none has all. Of layers that draw each pin once, fixed or not, all are its own.
+        """
+        within = [entity.source_block_reference for entity, _, _ in bodies]
+        blocks = {id(each): each for each in within} if len({*within}) > 1 or (len(within) == 1 and within[0]) else {}
+        parts = [part_of(entity, blocks) for entity, _, _ in bodies]
+        owners = {key: {part_of(each, blocks) for each in circles} for key, circles in self.circles.items()}
+        points, drawn = self.found.points, list[list[str]]()
+        told = {points[key].fixed for key, each in owners.items() if blocks or len(each) > 1}
+        for part, (_, closed, keys) in zip(parts, bodies, strict=True):
+            foreign = [key for key in keys if part not in owners[key] and points[key].fixed in told] if closed else []
+            if len(keys) - len(foreign) < 2:
+                foreign = []
+            drawn.append([key for key in keys if key not in foreign])
+            if foreign:
+                self.found.left_out.append(f"{' '.join(points[key].name for key in foreign)} within {part[1]}, which draws no circle there")
+        return ["" if len({*parts}) == 1 else name for _, name in parts], drawn
+
     def met(self, corners: Sequence[Place]) -> list[str]:
         """Return the pins that a line meets, or that a closed outline surrounds; a line may end at a pin's circle, too."""
         limit = MEETS * self.found.size
-        closed = len(corners) > 3 and dist(corners[0], corners[-1]) <= limit
+        closed = self.is_closed(corners)
         ends = [] if closed else [*corners[:1], *corners[-1:]]
         return [
             key
@@ -129,6 +167,10 @@ class DrawingReader:
             or any(dist(place, end) <= radius + limit for end in ends)
             or (closed and surrounds(place, corners))
         ]
+
+    def is_closed(self, corners: Sequence[Place]) -> bool:
+        """Return whether a line ends where it begins, as an outline does."""
+        return len(corners) > 3 and dist(corners[0], corners[-1]) <= MEETS * self.found.size
 
     def loose_ends(self, entity: Any) -> str:
         """Return in words where a line ends off each pin; nothing where it ends on pins."""
@@ -148,6 +190,16 @@ class DrawingReader:
         if not any({P, Q} <= {*points} for _, points in self.found.links):
             self.found.add_link("", [pivot, arm])
         self.found.drives.append(FoundDrive("crank", (pivot, arm)))
+
+
+def part_of(entity: Any, blocks: Mapping[int, Any]) -> tuple[int, str]:
+    """Return the number and the name of the block of some that an entity stands in; where there are none, its layer's."""
+    block = entity.source_block_reference
+    if not blocks:
+        return 0, str(entity.dxf.layer)
+    while id(block) not in blocks and block is not None:
+        block = block.source_block_reference
+    return id(block), "" if block is None else str(block.dxf.name)
 
 
 def corners_of(entity: Any) -> list[Place]:

@@ -307,8 +307,11 @@ def pylinkage_dyads(plan: Plan):
     return json.dumps({"name": "rocker", "joints": joints, "solve_order": None})
 
 
-def dxf(plan: Plan, path):
-    """Write a drawing in mm: circles, lines and outlines, hatches, and what drives on a layer of its own."""
+def dxf(plan: Plan, path, parts=""):
+    """Write a drawing in mm: circles, lines and outlines, hatches, and what drives on a layer of its own.
+
+    Parts may be "blocks" or "layers", plates that lie over each other, each with circles of its own pins.
+    """
     import ezdxf
 
     document = ezdxf.new(units=4)
@@ -319,12 +322,22 @@ def dxf(plan: Plan, path):
         if name in plan.fixed:
             space.add_hatch().paths.add_edge_path().add_arc(place, 3.0)
     for link in plan.links:
-        if {*link} != {*plan.crank}:
+        if parts or {*link} != {*plan.crank}:
             corners = [plan.points[each] for each in link]
-            if len(link) == 2:
-                space.add_line(*corners)
+            drawn, layer = space, {"layer": f"part {link}" if parts == "layers" else "0"}
+            if parts == "blocks":
+                space.add_blockref(link, (0, 0))
+                drawn = document.blocks.new(link)
+            if parts:
+                for place in corners:
+                    drawn.add_circle(place, 2.0, dxfattribs=layer)
+                (left, low), (right, high) = ([part(side) for side in zip(*corners, strict=True)] for part in (min, max))
+                add = 0.2 * plan.size
+                corners = [(left - add, low - add), (right + add, low - add), (right + add, high + add), (left - add, high + add)]
+            if len(corners) == 2:
+                drawn.add_line(*corners, dxfattribs=layer)
             else:
-                space.add_lwpolyline(corners, close=True)
+                drawn.add_lwpolyline(corners, close=True, dxfattribs=layer)
     for point, along in plan.slides:
         x, y = plan.points[point]
         space.add_line((x - 5 * cos(along), y - 5 * sin(along)), (x + 5 * cos(along), y + 5 * sin(along)), dxfattribs={"layer": "Slides"})

@@ -439,6 +439,12 @@ def test_outlines_with_round_ends_and_hatches_of_any_border_are_read(style, tmp_
     assert sketch.fixed == ("O", "C") and compare(plan, sketch)[1] < 1e-9
 
 
+def test_plates_on_one_layer_that_lie_over_each_other_are_told(tmp_path):
+    emit.dxf(BY_NAME["Bucket"], tmp_path / "plates.dxf", "plates")
+    told = " ".join(read_sketch(tmp_path / "plates.dxf").notes)
+    assert "surround two pins or more together" in told and "draw each part in a block or on a layer of its own" in told
+
+
 def test_a_board_tells_which_forces_it_leaves_out(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "six.toml").write_text(read_sketch(SIX_BAR).to_toml(), encoding="utf-8")

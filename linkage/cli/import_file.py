@@ -9,7 +9,7 @@ from ..disk import check_place, is_one_file, replacing_text
 from ..errors import DefinitionError, ensure
 from ..units import parse
 from .command import Command, option, repeatable, say_remark
-from .settings import pair
+from .settings import pair, span_said
 
 
 @Command(
@@ -18,8 +18,22 @@ from .settings import pair
     option("file", metavar="FILE", help=".csv, .linkage2, .txt, .json, .dxf, or a share address of PMKS or PMKS+ in quotes"),
     option("-o", "--output", metavar="FILE", help=".toml or .py, .json (board), .csv, .linkage2, .txt (PMKS) (default NAME.toml)"),
     option("--scale", metavar="1mm", help="what 1 of the file is, where it has no unit or another one is meant"),
-    option("--drive", nargs=2, action="append", metavar=("O", "A"), help="a crank: a fixed pin, and a pin of the link that turns about it"),
-    option("--cylinder", nargs=2, action="append", metavar=("A", "B"), help="a cylinder between two pins"),
+    option(
+        "--drive",
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("O", "A[=90deg]"),
+        help="a crank: a fixed pin, and a pin of the link that turns about it, and how far; back and forwards: A=-20:40deg",
+    ),
+    option(
+        "--cylinder",
+        nargs=2,
+        action="append",
+        default=[],
+        metavar=("A", "B[=300mm]"),
+        help="a cylinder between two pins, and how far it goes out; or its lengths, B=900:1400mm",
+    ),
     option("--round", metavar="1mm", help="round lengths, and tell what moves by how much"),
     repeatable("--layer", "pins=Bolts", "the layer of pins, links, ground, slides, crank or cylinder of a drawing; repeatable", "layers"),
 )
@@ -33,7 +47,8 @@ def import_command(options: Namespace) -> int:
     for text in options.layers:
         role, name = pair(text, "--layer", "pins=Bolts")
         layers.setdefault(role, []).append(name)
-    found = read_sketch(options.file, scale=scale, drives=options.drive or (), cylinders=options.cylinder or (), layers=layers)
+    drives, cylinders = [drive_said(ends, "angle") for ends in options.drive], [drive_said(ends, "length") for ends in options.cylinder]
+    found = read_sketch(options.file, scale=scale, drives=drives, cylinders=cylinders, layers=layers)
     if options.round is not None:
         found = found.rounded(parse(options.round, "length"))
     for note in found.notes:
@@ -58,3 +73,10 @@ def import_command(options: Namespace) -> int:
         stream.write(text)
     print(f"{path}: {machine.__name__}, points: {len(found.points)}, links: {len(found.links)}. Look at it by: hydrolinkage show {path}")
     return 0
+
+
+def drive_said(ends: list[str], kind: str) -> tuple[str | float, ...]:
+    """Return the ends of a drive, and how far it goes where the second says it, such as `B=300mm` or `B=-20:300mm`."""
+    name, given, amounts = ends[1].partition("=")
+    ensure(not given or any(map(str.isalpha, amounts)), f"{' '.join(ends)}: say the unit too, such as {name}=300mm.")
+    return (ends[0], name, *(span_said(amounts, kind, f"{ends[0]} {name}") if given else ()))

@@ -82,15 +82,8 @@ def parsed_over(machine: Mechanism, text: str) -> Over:
         name, given = pair(part, "--over", "phi=15deg:80deg,t=0")
         known_name("Stroke", name, machine.strokes, where=f"--over {text}")
         ensure(name not in strokes, f"--over {text}: {name} stands twice; give it two ends, {name}=LOW:HIGH.")
-        kind, ends = stroke_measure(machine.plan, name), [end.strip() for end in given.split(":")]
-        if len(ends) == 1:
-            strokes[name] = si_value(given, kind, f"--over {name}")
-            continue
-        # a unit behind the second end holds for the first too, as in `15:80deg`
-        span = parse_span(" to ".join(ends), kind) if len(ends) == 2 and all(ends) else None
-        if span is None or len(span) != 2:
-            raise DefinitionError(f"--over {name}={given}: one value or two ends are expected, such as {name}=15deg:80deg.")
-        strokes[name] = span[0], span[1]
+        low, *high = span_said(given, stroke_measure(machine.plan, name), f"--over {name}")
+        strokes[name] = (low, high[0]) if high else low
     return Over(**strokes)  # type: ignore[arg-type]
 
 
@@ -188,6 +181,18 @@ def si_value(text: str, kind: str, what: str, units: str = "") -> float:
         raise DefinitionError(f"{what}: {error}") from None
     ensure(not units or any(map(str.isalpha, re.sub("[eE]", "", text))), f"{what} {text}: say the unit too, such as {units}.")
     return value
+
+
+def span_said(text: str, kind: str, what: str) -> tuple[float, ...]:
+    """Return the SI value of a text, or both ends of one such as `15:80deg`, whose unit holds for the first end too."""
+    ends = [end.strip() for end in text.split(":")]
+    if len(ends) == 1:
+        return (si_value(text, kind, what),)
+    span = parse_span(" to ".join(ends), kind) if len(ends) == 2 and all(ends) else None
+    if span is None or len(span) != 2:
+        example = f"{what.split()[-1]}={'0:300mm' if kind == 'length' else '15deg:80deg'}"
+        raise DefinitionError(f"{what}={text}: one value or two ends are expected, such as {example}.")
+    return span
 
 
 def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None, Motion]]:

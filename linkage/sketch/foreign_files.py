@@ -5,14 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from math import isfinite
+from math import dist, isfinite
 from pathlib import Path
 from types import MappingProxyType
 
 from ..disk import Place, read
-from ..errors import DefinitionError, FileError, cited, ensure, unknown
+from ..errors import DefinitionError, FileError, cited, ensure, is_number, unknown
 from ..files.source import FILE_BYTES, decoded, text_of
 from ..quantities import joined_names
+from ..units import show
 from .board_json import ADDRESS, board_json, read_board
 from .dxf_layers import read_dxf
 from .found import WORDS, FoundDrive, FoundMachine, JsonTable, printable
@@ -34,8 +35,8 @@ def read_sketch(
     file: Place,
     *,
     scale: float | None = None,
-    drives: Sequence[tuple[str, str]] = (),
-    cylinders: Sequence[tuple[str, str]] = (),
+    drives: Sequence[Sequence[str | float]] = (),
+    cylinders: Sequence[Sequence[str | float]] = (),
     layers: Mapping[str, Sequence[str]] = MappingProxyType({}),
 ) -> MachineSketch:
     """Return the sketch that a file of another program holds, or a share address.
@@ -48,7 +49,9 @@ def read_sketch(
     scale : float, optional
         What 1 of the file is [m]. By default as the file says.
     drives, cylinders : sequence of (str, str), optional
-        What drives in place of what the file says: the fixed pin and a pin of each crank, the two ends of each cylinder.
+        What drives in place of what the file says: the fixed pin and a pin of each crank, the two ends of each cylinder. Behind them how
+        far it goes from the drawn pose [rad or m], ("A", "B", 0.3), or back and forwards, ("A", "B", -0.02, 0.3); of a cylinder also its
+        lengths from pin to pin, ("A", "B", 0.9, 1.4).
     layers : mapping of str to sequence of str, optional
         Of a drawing the layers of its pins, links, ground, slides, crank and cylinder.
 
@@ -62,7 +65,7 @@ def read_sketch(
     FileError
         The file cannot be read, is damaged, has no unit, or holds what cannot be: where, and the remedy.
     DefinitionError
-        A point that is named is not there.
+        A point that is named is not there, or how far it goes does not fit the drawing.
     """
     found, title = content_of(file, layers)
     is_drawing = str(file).lower().endswith(".dxf")
@@ -186,8 +189,12 @@ def read_json(found: FoundMachine, data: object) -> None:
     reader(found, data)  # type: ignore[arg-type]
 
 
-def add_drive(found: FoundMachine, kind: str, ends: Sequence[str]) -> None:
-    """Enter a drive that is asked for; DefinitionError for a crank whose pivot is not fixed, or that no link joins to its pin."""
+def add_drive(found: FoundMachine, kind: str, named: Sequence[str | float]) -> None:
+    """Enter a drive that is asked for, how far it goes behind its ends.
+
+    DefinitionError for a crank whose pivot is not fixed, or that no link joins to its pin, and for amounts that do not fit.
+    """
+    ends, amounts = [each for each in named if isinstance(each, str)], [each for each in named if not isinstance(each, str)]
     keys = {name: key for key, point in reversed(found.points.items()) for name in (point.name, key)}
     for name in ends:
         if name not in keys:
@@ -203,7 +210,18 @@ def add_drive(found: FoundMachine, kind: str, ends: Sequence[str]) -> None:
         ensure(
             joined, f"{found.file}: --drive {' '.join(names)}: no link joins {names[0]} and {names[1]}; name a pin of the link that turns."
         )
-    found.drives.append(FoundDrive(kind, (P, Q)))
+    what = f"{found.file}: the {kind} {' '.join(names)}"
+    ensure(len(amounts) < 3 and all(map(is_number, amounts)), f"{what} goes {amounts}; give how far, or back and forwards.")
+    start, *end = amounts if len(amounts) > 1 else (0.0, *amounts)
+    drawn = 0.0
+    if kind == "cylinder" and start > 0.0 and found.unit is not None:  # from pin to pin
+        drawn = dist(found.points[P].place, found.points[Q].place) * found.unit - start
+        limits = f"{show(drawn + start, 'mm')} long as it is drawn, which is not from {show(start, 'mm')} to {show(end[0], 'mm')}"
+        ensure(start <= drawn + start <= end[0], f"{what} is {limits}.")
+        start, end = 0.0, [end[0] - start]
+    ensure(not end or start != end[0], f"{what} goes from {start!r} to {end}; it needs a stroke.")
+    limits = [f"{each!r}m" if kind == "cylinder" else each for each in (start, drawn, *end)]
+    found.drives.append(FoundDrive(kind, (P, Q), *limits[2:], start=limits[0], drawn=limits[1]))
     found.links = [each for each in found.links if kind != "cylinder" or {*each[1]} != {P, Q}]  # a rod that is drawn becomes the cylinder
 
 

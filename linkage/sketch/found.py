@@ -55,7 +55,8 @@ class FoundDrive:
     reach: float | str | None = None
     name: str = ""
     start: float | str = 0.0
-    """Where it begins, seen from the drawn pose, as `reach` is where it ends."""
+    """Where it begins, as `reach` is where it ends; both seen from the drawn pose, unless `drawn` says where that is."""
+    drawn: float | str = 0.0
 
 
 @dataclass
@@ -243,14 +244,17 @@ class FoundMachine:
         for drive in self.drives:
             P, Q = (names[key] for key in drive.ends)
             if drive.kind == "crank":
-                name, start, end = "phi", float(drive.start), float(TURN if drive.reach is None else drive.reach)
+                name, start, end, drawn = "phi", float(drive.start), float(TURN if drive.reach is None else drive.reach), 0.0
             else:
                 reach = f"{HALF * dist(places[P], places[Q])!r}m" if drive.reach is None else drive.reach
-                lengths = (parse(each, "length") if isinstance(each, str) else each * (self.unit or 1.0) for each in (drive.start, reach))
-                name, (start, end) = "S", map(noiseless, lengths)
+                lengths = (
+                    parse(each, "length") if isinstance(each, str) else each * (self.unit or 1.0)
+                    for each in (drive.start, reach, drive.drawn)
+                )
+                name, (start, end, drawn) = "S", map(noiseless, lengths)
                 if drive.reach is None:
                     self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")
-            yield legal_name(drive.name or name, taken), SketchDrive(drive.kind, (P, Q), start, end)
+            yield legal_name(drive.name or name, taken), SketchDrive(drive.kind, (P, Q), start, end, drawn)
 
     def straighten(self) -> None:
         """Put each point that slides between two others onto their line; FileError for one that is not near it."""

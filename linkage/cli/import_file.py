@@ -34,7 +34,7 @@ from .settings import pair, span_said
         metavar=("A", "B[=300mm]"),
         help="a cylinder between two pins, and how far it goes out; or its lengths, B=900:1400mm",
     ),
-    option("--round", metavar="1mm", help="round lengths, and tell what moves by how much"),
+    option("--round", metavar="1mm", help="round lengths and angles, and tell what moves by how much"),
     repeatable("--layer", "pins=Bolts", "the layer of pins, links, ground, slides, crank or cylinder of a drawing; repeatable", "layers"),
 )
 def import_command(options: Namespace) -> int:
@@ -78,5 +78,8 @@ def import_command(options: Namespace) -> int:
 def drive_said(ends: list[str], kind: str) -> tuple[str | float, ...]:
     """Return the ends of a drive, and how far it goes where the second says it, such as `B=300mm` or `B=-20:300mm`."""
     name, given, amounts = ends[1].partition("=")
-    ensure(not given or any(map(str.isalpha, amounts)), f"{' '.join(ends)}: say the unit too, such as {name}=300mm.")
+    ensure(
+        not given or any(map(str.isalpha, amounts)),
+        f"{' '.join(ends)}: say the unit too, such as {name}={'300mm' if kind == 'length' else '90deg'}.",
+    )
     return (ends[0], name, *(span_said(amounts, kind, f"{ends[0]} {name}") if given else ()))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import permutations
-from math import atan2, dist, isfinite
+from math import atan2, degrees, dist, floor, isfinite, log10, pi, radians, remainder
 from typing import Any
 
 from ..errors import DefinitionError, FileError, cited, ensure, is_listed, is_number, quoted
@@ -121,6 +121,8 @@ class MachineSketch:
         What reading it changed or left out, in sentences.
     forces : mapping of str to SketchForce
         Forces at points, by their names; the drawing board has none.
+    angles : mapping of str to float
+        Angles of links that are given instead of measured [rad], by their labels, such as those of `rounded`.
 
     Raises
     ------
@@ -138,6 +140,7 @@ class MachineSketch:
     weights: Mapping[str, SketchWeight] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     forces: Mapping[str, SketchForce] = field(default_factory=dict)
+    angles: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         ensure(self.points, f"{self.name}: no point is drawn; a sketch begins with points and links.")
@@ -150,6 +153,7 @@ class MachineSketch:
             sizes = [size for size in (each.bore, each.rod) if size is not None]
             numbered[f"the drive {name}"] = (each.start, each.end, each.drawn, *sizes)
         numbered |= {f"the length {label}": (value,) for label, value in self.lengths.items()}
+        numbered |= {f"the angle {label}": (value,) for label, value in self.angles.items()}
         numbered |= {f"the weight {name}": (weight.mass,) for name, weight in self.weights.items()}
         numbered |= {f"the force {name}": force.vector for name, force in self.forces.items()}
         for what, numbers in numbered.items():
@@ -215,7 +219,7 @@ class MachineSketch:
             is_measured = label not in self.lengths and min(drive.start, drive.end) <= 0.0
             found["links"][f"rod_{name}"] = {"points": f"{P} {Q}", label: name if is_measured else f"{closed!r} + {name}"}
         found["guides"] = {
-            f"line_{name}": {"from": [*self.points[each.point]], "angle": each.along}
+            f"line_{name}": {"from": [*self.points[each.point]], "angle": in_unit(each.along, "deg")}
             if isinstance(each.along, (int, float))
             else {"from": each.along[0], "to": each.along[1]}
             for name, each in self.slides.items()
@@ -241,10 +245,11 @@ class MachineSketch:
         text = f"{self.name}: nothing says what drives it. Say it when you import it. A crank is a fixed pin and a pin of its link"
         raise DefinitionError(f"{text}, --drive {P} {Q}; a cylinder is its two ends, --cylinder P Q.{others}")
 
-    def labels(self, points: Iterable[str]) -> dict[str, float]:
-        """Return the given lengths among some points [m], by their labels."""
-        labels = (joined_names(*pair) for pair in permutations(points, 2))
-        return {label: self.lengths[label] for label in labels if label in self.lengths}
+    def labels(self, points: Sequence[str]) -> dict[str, float | str]:
+        """Return the given lengths and angles among some points [m, rad], by their labels."""
+        given = {**self.lengths, **{label: in_unit(angle, "deg") for label, angle in self.angles.items()}}
+        labels = (joined_names(*each) for count in (2, 3) for each in permutations(points, count))
+        return {label: given[label] for label in labels if label in given}
 
     def to_class(self) -> type[Mechanism]:
         """Return the class of mechanism in the parts-list form; lengths not given are measured from the coordinates.
@@ -286,17 +291,18 @@ class MachineSketch:
     # -- round numbers -------------------------------------------------------------------------------------
 
     def rounded(self, step: float) -> MachineSketch:
-        """Return the sketch with round lengths and fixed pins, its other points where these put them.
+        """Return the sketch with round lengths, angles and fixed pins, its other points where these put them.
 
         Parameters
         ----------
         step : float
-            What lengths and fixed coordinates are whole multiples of [m].
+            What lengths and fixed coordinates are whole multiples of [m]. Angles are whole multiples of 1, 0.1, 0.01 ... degrees, the
+            first that is finer than a step at the end of their arm.
 
         Returns
         -------
         MachineSketch
-            The lengths given; a note says which point moves most, and by how much.
+            The lengths and angles given; a note says which point moves most, and by how much.
 
         Raises
         ------
@@ -318,10 +324,22 @@ class MachineSketch:
         for label, value in lengths.items():
             ensure(value > 0.0, f"{self.name}: {label} rounds to nothing in steps of {show(step, 'mm')}; take a finer step.")
         places = dict(self.points)
-        for name in self.fixed:
+        corners = [(points[0], points[1], each) for points in self.links.values() for each in points[2:] if not {*points} <= {*self.fixed}]
+        turns = {joined_names(P, O, Q): line_angle(places[O], places[Q]) - line_angle(places[O], places[P]) for O, P, Q in corners}
+        arms = {joined_names(P, O, Q): self.length(O, Q) for O, P, Q in corners}
+        angles = {label: round_angle(remainder(turn, 2.0 * pi), step / arms[label]) for label, turn in turns.items()}
+        lines = {name: each for name, each in self.slides.items() if isinstance(each.along, (int, float))}
+        slides = {name: replace(each, along=round_angle(float(each.along), step / self.size)) for name, each in lines.items()}
+        for name in (*self.fixed, *(each.point for each in lines.values())):
             x, y = (clean(round(each / step) * step) for each in places[name])
             places[name] = x, y
-        put = replace(self, points=places, lengths={label: clean(value) for label, value in lengths.items()})
+        put = replace(
+            self,
+            points=places,
+            lengths={label: clean(value) for label, value in lengths.items()},
+            angles=angles,
+            slides={**self.slides, **slides},
+        )
         strokes: dict[str, Any] = {name: drive.drawn for name, drive in self.drives.items()}
         motion = put.to_class()().at(**strokes)
         settled = {name: (float(motion.x(name)), float(motion.y(name))) for name in self.points}
@@ -340,6 +358,12 @@ def longer_side(places: Iterable[Place]) -> float:
 def line_angle(P: Place, Q: Place) -> float:
     """Return the angle of the line from one place to another [rad]."""
     return atan2(Q[1] - P[1], Q[0] - P[0])
+
+
+def round_angle(angle: float, least: float) -> float:
+    """Return an angle in whole degrees, or tenths, hundredths ... of one, the first that are finer than a least angle [rad]."""
+    step = 10.0 ** min(0, floor(log10(degrees(least))))
+    return radians(clean(round(degrees(angle) / step) * step))
 
 
 def clean(value: float) -> float:
@@ -373,7 +397,7 @@ def python_number(value: float | str) -> str:
 def python_member(section: str, table: Mapping[str, Any]) -> str:
     """Return the call that makes a member of a section."""
     given = {name: value for name, value in table.items() if name not in ("points", "from", "to", "point", "guide", "at", "Crank")}
-    words = [f"{name}={value if isinstance(value, str) else repr(value)}" for name, value in given.items()]
+    words = [f"{name}={value.replace(' deg', ' * deg') if isinstance(value, str) else repr(value)}" for name, value in given.items()]
     at = [f"at=({', '.join(map(repr, table['at']))})"] if "at" in table else []
     match section:
         case "points":

@@ -118,6 +118,8 @@ def test_round_lengths_close_and_say_what_moves():
         machine = rounded.to_class()
         lengths = {name: value for name, value in machine().dimensions.items() if name in rounded.lengths}
         assert lengths and all(abs(value / 0.01 - round(float(value) / 0.01)) < 1e-9 for value in lengths.values()), lengths
+        turns = [*rounded.angles.values(), *(each.along for each in rounded.slides.values())]
+        assert turns and all(abs(np.degrees(turn) - round(np.degrees(turn), 1)) < 1e-12 for turn in turns), turns
         assert machine().verdicts() and not any("The sketch has" in str(each) for each in machine().verdicts())
         moved = {name: np.hypot(*np.subtract(rounded.points[name], sketch.points[name])) for name in sketch.points}
         most = max(moved, key=moved.get)

@@ -147,6 +147,14 @@ def test_a_file_without_a_unit_or_a_drive_says_which_option(tmp_path):
         with pytest.raises(DefinitionError, match=words):
             read_sketch(still, drives=[(P, Q)])
     assert read_sketch(still, cylinders=[("O", "T")]).drives["S"].ends == ("O", "T")
+    for amounts, stroke in (((0.3,), (0.0, 0.3)), ((-0.02, 0.3), (-0.02, 0.3)), ((0.15, 0.2), (0.0, 0.05))):
+        sketch = read_sketch(still, cylinders=[("O", "T", *amounts)])
+        drive = sketch.drives["S"]
+        assert (drive.start, drive.end) == pytest.approx(stroke)
+        assert amounts != (0.15, 0.2) or sketch.length("O", "T") - drive.drawn == pytest.approx(0.15, rel=1e-12)
+    for amounts, words in (((0.3, 0.4), "which is not from 300 mm to 400 mm"), ((0.0,), "needs a stroke"), ((0.1, 0.2, 0.3), "how far")):
+        with pytest.raises(DefinitionError, match=words):
+            read_sketch(still, cylinders=[("O", "T", *amounts)])
 
 
 def test_a_table_may_have_other_marks_and_units(tmp_path):
@@ -241,7 +249,8 @@ def test_the_command_imports_and_every_other_takes_the_file(tmp_path, capsys, mo
     assert "phi  0 to 360 deg" in capsys.readouterr().out
     assert main(["show", file]) == 0 and main(["draw", file, "-o", "rocker.png"]) == 0 and (tmp_path / "rocker.png").stat().st_size > 1000
     assert main(["show", emit.short_body(BY_NAME["Pump"])]) == 0
-    assert main(["import", file, "--round", "10mm", "-o", "round.toml"]) == 0
+    assert main(["import", file, "--round", "10mm", "--drive", "O", "A=-20:90deg", "-o", "round.toml"]) == 0
+    assert 'phi = ["-20 deg", "90 deg"]' in (tmp_path / "round.toml").read_text()
     assert "moves most, by" in capsys.readouterr().err
     assert main(["import", file]) == 2  # rocker.toml is there
 
@@ -251,6 +260,7 @@ def test_the_command_ends_with_2_and_the_option_that_helps(tmp_path, capsys):
     for arguments, words in (
         (["import", plain, "-o", str(tmp_path / "a.toml")], "--scale 1mm"),
         (["show", plain], "--scale 1mm"),
+        (["import", plain, "--scale", "1mm", "--drive", "O", "A=90"], "say the unit too, such as A=90deg"),
         (["import", plain, "--scale", "1mm", "-o", str(tmp_path / "a.doc")], ".doc says no kind of file"),
         (["import", plain, "--scale", "1kg"], "value of kind length"),
         (["import", str(tmp_path / "nowhere.csv")], "there is no such file"),

@@ -142,8 +142,8 @@ class DrawingReader:
         """
         within = [entity.source_block_reference for entity, _, _ in bodies]
         blocks = {id(each): each for each in within} if len({*within}) > 1 or (len(within) == 1 and within[0]) else {}
-        parts = [part_of(entity, blocks) for entity, _, _ in bodies]
-        owners = {key: {part_of(each, blocks) for each in circles} for key, circles in self.circles.items()}
+        parts = [drawn_part(entity, blocks) for entity, _, _ in bodies]
+        owners = {key: {drawn_part(each, blocks) for each in circles} for key, circles in self.circles.items()}
         points, drawn = self.found.points, list[list[str]]()
         told = {points[key].fixed for key, each in owners.items() if blocks or len(each) > 1}
         for part, (_, closed, keys) in zip(parts, bodies, strict=True):
@@ -192,7 +192,7 @@ class DrawingReader:
         self.found.drives.append(FoundDrive("crank", (pivot, arm)))
 
 
-def part_of(entity: Any, blocks: Mapping[int, Any]) -> tuple[int, str]:
+def drawn_part(entity: Any, blocks: Mapping[int, Any]) -> tuple[int, str]:
     """Return the number and the name of the block of some that an entity stands in; where there are none, its layer's."""
     block = entity.source_block_reference
     if not blocks:

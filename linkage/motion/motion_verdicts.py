@@ -14,7 +14,7 @@ import numpy as np
 from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, unwarned
 from ..language import heading_of, said
-from ..loads import PLAIN_CASE, TwoPoint
+from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
 from ..plan import Mask, Plan, name_or_pins, opening
 from ..quantities import Member
 from ..units import deg, display_unit, show
@@ -526,7 +526,9 @@ def pose_sentence(motion: Motion) -> str:
             case = said("own loads") if each.case == PLAIN_CASE else each.case
             faults.append(f"{rule} {value} ({case})" if each.case and "case" in each.named else f"{rule} {value}")
     if near and not faults and not unknown:
-        return all_kept_here()
+        cases = () if None in occurring else dict.fromkeys(case for each in occurring for case in each or ())
+        is_part = cases and {*cases} != {PLAIN_CASE, *plan.of_kind(LoadCase)}
+        return all_kept_here(", ".join(map(case_in_words, cases)) if is_part else "")
     kept = said("all kept") if not unknown else said("{n} kept", n=len(found)) if found else ""
     here = ", ".join(faults) or kept
     parts = [] if near else [said("outside what is judged")]
@@ -535,9 +537,9 @@ def pose_sentence(motion: Motion) -> str:
     return f"{said('At this pose:')} {'; '.join(parts)}."
 
 
-def all_kept_here() -> str:
-    """Return the sentence of a pose where every rule is followed and kept."""
-    return f"{said('At this pose:')} {said('all kept')}."
+def all_kept_here(cases: str = "") -> str:
+    """Return the sentence of a pose where every rule is followed and kept, in load cases in words where only some occur there."""
+    return f"{said('At this pose:')} {said('all kept')} {cases}".rstrip() + "."
 
 
 INSTANT = 1e-9

@@ -227,7 +227,8 @@ class Overlay:
         for arm in self.arms:
             texts += arm.draw(ax)
             covered.append(np.repeat(arm.line.covered, arrows.ARROW, axis=0))
-        sheet_note(ax, self.sentences, style.INK if self.sentences == [all_kept_here()] else style.ACCENT)
+        is_kept = len(self.sentences) == 1 and self.sentences[0].startswith(all_kept_here()[:-1])
+        sheet_note(ax, self.sentences, style.INK if is_kept else style.ACCENT)
         for layer in self.layers:
             covered.append(np.repeat(arrows.scale_bar(ax, layer, layer.scale(self.sheet), np.concatenate(covered)), arrows.ARROW, axis=0))
         everything = np.concatenate(covered)

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.testing import assert_array_equal
 
-from linkage import Crank, Ground, Mechanism, Over, Stroke, Support, Weight, deg, x
+from linkage import Crank, Ground, LoadCase, Mechanism, Over, Stroke, Support, Weight, deg, x
 from linkage.motion import judged_poses, pose_sentence
 from tests.for_all import for_all
 
@@ -27,6 +27,13 @@ class Tipping(Mechanism):
     body, load = Weight(M, mass=1000.0), Weight(G, mass=600.0)
     front, rear = Support(front_axle, direction=(0, 1)), Support(rear_axle, direction=(0, 1))
     near = Over(phi=(60 * deg, 90 * deg))
+
+
+class Loading(Tipping):
+    """The same frame: lowered without its load alone."""
+
+    empty = LoadCase("empty", scale={"load": 0.0})
+    low = Over(phi=(0.0, 50 * deg), cases=["empty"])
 
 
 TRAVEL = np.array([90 * deg, 120 * deg, 2.0])
@@ -84,6 +91,9 @@ def test_what_is_out_of_bounds_at_a_pose_is_told_with_its_number():
     beyond = "At this pose: outside what is judged; if it were judged:"
     assert pose_sentence(machine.at(phi=20 * deg)) == f"{beyond} axle load rear {far / 1e3:.4g} kN."
     assert pose_sentence(Reach().at(alpha=0.5, beta=0.1, slide=0.0)) == ""
+    load = Loading()  # of all cases in one place, of one in the other
+    kept = [pose_sentence(load.at(phi=phi * deg)) for phi in (60.0, 20.0)]
+    assert kept == ["At this pose: all kept.", "At this pose: all kept in the case empty."]
 
 
 def test_designs_of_a_batch_have_the_same_poses_judged():

@@ -74,10 +74,10 @@ def read_sketch(
         ensure(found.board_sketch is None, f"{found.file}: a drawing of the board is in metres; leave out the scale.")
         ensure(isfinite(scale) and scale > 0.0, f"{found.file}: the scale is {scale!r}; say what 1 of the file is, such as 1mm.")
         found.unit = scale
-    asked = [*(("crank", *ends) for ends in drives), *(("cylinder", *ends) for ends in cylinders)]
+    asked = [*(("crank", ends) for ends in drives), *(("cylinder", ends) for ends in cylinders)]
     if asked:
         found.drives = []
-        for kind, *ends in asked:
+        for kind, ends in asked:
             add_drive(found, kind, ends)
     drawn = found.board_sketch
     if drawn is None or not asked:
@@ -216,12 +216,12 @@ def add_drive(found: FoundMachine, kind: str, named: Sequence[str | float]) -> N
     drawn = 0.0
     if kind == "cylinder" and start > 0.0 and found.unit is not None:  # from pin to pin
         drawn = dist(found.points[P].place, found.points[Q].place) * found.unit - start
-        limits = f"{show(drawn + start, 'mm')} long as it is drawn, which is not from {show(start, 'mm')} to {show(end[0], 'mm')}"
-        ensure(start <= drawn + start <= end[0], f"{what} is {limits}.")
+        lengths = f"{show(drawn + start, 'mm')} long as it is drawn, which is not from {show(start, 'mm')} to {show(end[0], 'mm')}"
+        ensure(start <= drawn + start <= end[0], f"{what} is {lengths}.")
         start, end = 0.0, [end[0] - start]
     ensure(not end or start != end[0], f"{what} goes from {start!r} to {end}; it needs a stroke.")
-    limits = [f"{each!r}m" if kind == "cylinder" else each for each in (start, drawn, *end)]
-    found.drives.append(FoundDrive(kind, (P, Q), *limits[2:], start=limits[0], drawn=limits[1]))
+    limits: list[float | str] = [f"{each!r}m" if kind == "cylinder" else each for each in (start, drawn, *end)]
+    found.drives.append(FoundDrive(kind, (P, Q), limits[2] if end else None, start=limits[0], drawn=limits[1]))
     found.links = [each for each in found.links if kind != "cylinder" or {*each[1]} != {P, Q}]  # a rod that is drawn becomes the cylinder
 
 

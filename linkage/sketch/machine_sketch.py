@@ -328,9 +328,12 @@ class MachineSketch:
         turns = {joined_names(P, O, Q): line_angle(places[O], places[Q]) - line_angle(places[O], places[P]) for O, P, Q in corners}
         arms = {joined_names(P, O, Q): self.length(O, Q) for O, P, Q in corners}
         angles = {label: round_angle(remainder(turn, 2.0 * pi), step / arms[label]) for label, turn in turns.items()}
-        lines = {name: each for name, each in self.slides.items() if isinstance(each.along, (int, float))}
-        slides = {name: replace(each, along=round_angle(float(each.along), step / self.size)) for name, each in lines.items()}
-        for name in (*self.fixed, *(each.point for each in lines.values())):
+        slides, rounds = dict(self.slides), [*self.fixed]
+        for name, each in self.slides.items():
+            if not isinstance(each.along, tuple):
+                slides[name] = replace(each, along=round_angle(each.along, step / self.size))
+                rounds.append(each.point)
+        for name in rounds:
             x, y = (clean(round(each / step) * step) for each in places[name])
             places[name] = x, y
         put = replace(
@@ -338,7 +341,7 @@ class MachineSketch:
             points=places,
             lengths={label: clean(value) for label, value in lengths.items()},
             angles=angles,
-            slides={**self.slides, **slides},
+            slides=slides,
         )
         strokes: dict[str, Any] = {name: drive.drawn for name, drive in self.drives.items()}
         motion = put.to_class()().at(**strokes)

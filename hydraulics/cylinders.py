@@ -507,6 +507,8 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         thrust = line_thrust(self, line, motion, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
+        if line is not None and side == other_side(self) and line.kind_in(motion.plan.members) == "held":
+            balance = line.pressure_behind(self, motion, acting)
         least = balance if below else 0.0
         goes, at_rest = self.goes(motion, acting), np.asarray(np.maximum(balance, least))[()]
         if (acting.movement == FRICTIONLESS and goes is None) or (self.side not in (side, "both") and self.side != "regenerative"):
@@ -1606,6 +1608,25 @@ class Circuit(OnLines, HasVerdicts):
         array
             The pressure.
         """
+
+    def pressure_behind(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
+        """Return the pressure on the other sides of its cylinders that gives all they ask for, shape (...) [Pa gauge].
+
+        Parameters
+        ----------
+        cylinder : Ram
+            One of its cylinders, whose other side has it.
+        motion : Motion
+            The poses.
+        acting : Acting
+            The situation: loads, load case, direction and rates.
+
+        Returns
+        -------
+        array
+            The pressure, below zero where its own side holds.
+        """
+        return line_thrust(cylinder, self, motion, acting) / chamber_area(Chamber(cylinder, other_side(cylinder) or ROD), cylinder, motion)
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return between which two thrusts [N] it lets one of its cylinders stand; unbounded unless it says so."""

@@ -23,7 +23,7 @@ from linkage.motion import Answer, Judge, Motion, PageWords, Question, Span, bel
 from linkage.motion.measures import Condition, at, least, most
 from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
 from linkage.quantities.member import in_class
-from linkage.statics import LawRequest, elements_of, is_among
+from linkage.statics import LawRequest, elements_of, is_among, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
@@ -36,18 +36,18 @@ from .cylinders import (
     OnLines,
     Ram,
     Side,
-    as_in,
     carries_loads,
     judge_of,
     least_and_most,
     line_beside,
+    lines_of,
     other_side,
     thrust_request,
     works_by_lines,
 )
 from .files import pressure_kind
 from .inputs import EFFICIENCIES, PUMPED, Array, check_pressures, follows, not_negative, one_design, one_number
-from .lifting_line import LiftLine, is_pushed_back
+from .lifting_line import LiftLine, pushed_back
 from .pump import Pump
 from .remedy import Sizes, can_be_set, show_enough, size_words, smallest
 from .requests import flow, going_back_request, is_free, left_request, pressure_request, reserve_request
@@ -411,8 +411,10 @@ class LiftingCylinder:
 
     @property
     def goes_back_by_another(self) -> bool:
-        """Whether another held line has its other side, so that its pump drives it back, as is judged there."""
-        return as_in(self.judge.plan, self.ram).side == "both" and self.ram.side != "both"
+        """Whether another held line has the other side of one of its line's, so that its pump drives them back, as is judged there."""
+        members = self.judge.plan.members
+        beside = (line for ram in self.circuit.members(members) for line, _ in lines_of(ram, members, "held"))
+        return any(not same(line, self.circuit) for line in beside)
 
     @property
     def lowers_alone(self) -> bool:
@@ -592,7 +594,7 @@ class LiftingCylinder:
                 text = said("nothing holds it back {against}; {where} the load presses on neither side and nothing drives it.", **by)
             return Verdict("lowering", True, text, answer=replace(push, ok=True))
         where, enough = self.stuck(replace(self.back(way, resistance), acting=replace(judge.situation(push), direction=None))), False
-        is_pushed = is_pushed_back(self.ram, self.circuit, judge.plan.members)
+        is_pushed = bool(pushed_back(self.ram, self.circuit, judge.plan.members))
         if is_pushed and not push.unbounded:
             (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
         by = {"where": where, "against": against, "place": push.place, "pose": push.place}

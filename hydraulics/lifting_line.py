@@ -13,7 +13,8 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
+from operator import add
 from typing import Any, Unpack, cast
 
 import numpy as np
@@ -31,10 +32,12 @@ from linkage.quantities import NamedMembers, Reference, of_kind
 from linkage.statics import (
     PROBE,
     AnyMotion,
+    each_once,
     elements_of,
     greatest_kept,
     held_in_case,
     holders_of,
+    is_among,
     member_limits,
     member_thrust,
     plan_of,
@@ -44,10 +47,26 @@ from linkage.statics import (
 from linkage.statics.carried import IDLE, direction_at, is_steady, pull_direction, pulling
 from linkage.units import require_measure, show
 
-from .cylinders import PISTON, Circuit, OnLines, Ram, Reading, by_other_lines, line_beside, line_thrust, lines_of, other_side, thrust_along
+from .cylinders import (
+    PISTON,
+    ROD,
+    Chamber,
+    Circuit,
+    OnLines,
+    Ram,
+    Reading,
+    Side,
+    by_other_lines,
+    chamber_area,
+    line_beside,
+    line_thrust,
+    lines_of,
+    other_side,
+    thrust_along,
+)
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
 from .standard_sizes import RamSize
-from .standing import is_blocked, standing_pressure
+from .standing import growths, is_blocked, moving_with, standing_pressure, weighed
 
 
 class Choice(ActingKeywords, total=False):
@@ -60,7 +79,8 @@ class Choice(ActingKeywords, total=False):
 class Work:
     """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency.
 
-    `drained` is the thrust of tanks on its other side [N], which the pump works against as well.
+    `drained` is the thrust of tanks on its other side [N], which the pump works against as well. `others` on the same line move with it,
+    each with how its length follows: then forces and areas are those of all.
     """
 
     thrust: Array
@@ -68,6 +88,7 @@ class Work:
     size: RamSize
     k_m: Array
     drained: Array | float = 0.0
+    others: tuple[tuple[Work, Array], ...] = ()
 
     @property
     def pulls(self) -> Mask:
@@ -79,22 +100,27 @@ class Work:
     @property
     def area(self) -> Array:
         """The area of the side that works [m2]."""
-        return np.asarray(np.where(self.pulls, self.size.pull_area, self.size.outward_area))[()]
+        return self._of_all("area", np.where(self.pulls, self.size.pull_area, self.size.outward_area))
 
     @property
     def other_area(self) -> Array:
         """The area of the other side [m2]."""
-        return np.asarray(np.where(self.pulls, self.size.push_area, self.size.inward_area))[()]
+        return self._of_all("other_area", np.where(self.pulls, self.size.push_area, self.size.inward_area))
 
     @property
     def along(self) -> Array:
         """The thrust in the direction in which the working side pushes or pulls [N]."""
-        return np.where(self.pulls, -self.thrust, self.thrust)
+        return self._of_all("along", np.where(self.pulls, -self.thrust, self.thrust))
 
     @property
     def against(self) -> Array:
         """The back thrust of tanks on the other side [N]."""
-        return np.where(self.pulls, 1.0, -1.0) * self.drained
+        return self._of_all("against", np.where(self.pulls, 1.0, -1.0) * self.drained)
+
+    def _of_all(self, name: str, own: Array) -> Array:
+        turn = np.where(self.pulls, -1.0, 1.0)
+        rest = (turn * np.where(each.pulls, -1.0, 1.0) * rate * getattr(each, name) for each, rate in self.others)
+        return np.asarray(reduce(add, rest, own))[()]
 
     @property
     def supplied(self) -> Mask:
@@ -104,8 +130,13 @@ class Work:
     @property
     def force(self) -> Array:
         """The rod force in the working direction [N]: over k_m where the load resists the motion, times k_m where it drives."""
-        resists = self.along * np.where(self.supplied, 1.0, -1.0) > 0.0
-        return np.where(resists, self.along / self.k_m, self.along * self.k_m)
+        along = self.along
+        return np.where(along * np.where(self.supplied, 1.0, -1.0) > 0.0, along / self.k_m, along * self.k_m)
+
+    def towards(self, sense: float) -> Work:
+        """Return the work of the sides that drive in a direction, 1 while it grows, whatever is asked of them."""
+        others = tuple((replace(each, thrust=sense * np.sign(rate)), rate) for each, rate in self.others)
+        return replace(self, thrust=np.asarray(sense), sense=np.asarray(sense), others=others)
 
 
 @immutable
@@ -149,26 +180,71 @@ def way_back(
     `way` is "extending" or "retracting", its own direction. Over a path in time nothing is asked of it where it goes another way.
     Friction acts against it: the load brings T k_m where it drives and takes T / k_m where it resists. The first pressure is what the
     load alone makes in the side that empties, the second what the other side must give beyond the third one, that of its tank. It is
-    below zero where the load does it by itself.
+    below zero where the load does it by itself. Cylinders of one line go back together, at one pressure on each side.
     """
     running = replace(acting, direction=AS_IT_RUNS if acting.rates == AS_IT_RUNS else None)  # whatever it is looked at for
     goes, sense = ram.goes(motion, running), -1.0 if way == "retracting" else 1.0
     acting = acting.towards(way) if goes is None else running
-    size, drives = ram.sized(motion, way), -sense * line_thrust(ram, line, motion, acting, with_tanks=False) + 0.0
-    empties, other = (size.outward_area, size.pull_area) if way == "retracting" else (size.pull_area, size.outward_area)
-    other = other if is_pushed_back(ram, line, motion.plan.members) else empties  # nothing pushes: what is missing where it empties
-    helps = sense * by_other_lines(ram, line, held_in_case(motion, acting), None, True)
-    brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
-    push = (against * empties - brings - helps) / other
-    pressures = [np.asarray(each)[()] for each in (np.maximum(brings + helps, 0.0) / empties, push, helps / other)]
+    asks, drained, out, into = sums_back(ram, line, motion, acting, way)
+    asks = np.where(sense * asks > 0.0, asks / k_m, asks * k_m)
+    beside = line_beside(ram, other_side(ram), line, held_in_case(motion, acting).plan.members)
+    tank = beside.line_pressure(motion, acting) if beside is not None and beside.is_drained else np.zeros(())
+    found = np.maximum((asks - drained) / out, 0.0), (asks - against * out - drained) / into, tank
+    pressures = [np.asarray(each)[()] for each in found]
     working, push, tank = pressures if goes is None else [only_where(goes * sense > 0.0, each) for each in pressures]
     return working, push, tank
 
 
-def is_pushed_back(ram: Ram, line: Circuit, members: NamedMembers) -> bool:
-    """Return whether oil may push a cylinder of a line back on its other side: a telescope has none, and gas and closed lines no pump."""
-    beside = line_beside(ram, other_side(ram), line, members)
-    return not ram.is_single_acting and (beside is None or beside.is_drained)
+def sums_back(ram: Ram, line: Circuit, motion: AnyMotion, acting: Acting, way: str) -> tuple[Array, Array, Array, Array]:
+    """Return the thrusts of a line's cylinders and of their tanks while one goes back [N], and what empties and is pushed [m2].
+
+    Signs are those of its length, and of several each counts as its length goes along. Where nothing pushes, what empties is pushed back.
+    """
+    own, members = rams_beside(line, ram, motion), held_in_case(motion, acting).plan.members
+    pushing, is_spool = pushed_back(ram, line, members), any(each.side == "both" for each in own)
+    rams = each_once((*own, *(each for each, _ in pushing)))
+    sense, rates = -1.0 if way == "retracting" else 1.0, growths(motion, rams, ram)
+    laws = (partial(line_thrust, each, line, motion, with_tanks=False) for each in rams)
+    asks = [moving_with(ram, each, motion, acting, law) for each, law in zip(rams, laws, strict=True)]
+    drained = (by_other_lines(each, line, held_in_case(motion, acting), None, True) for each in rams)
+    emptied, pushed = list[Array](), list[Array]()
+    for each, rate in zip(rams, rates, strict=True):
+        size, other = each.sized(motion, way), [chamber_area(chamber, each, motion) for one, chamber in pushing if same(one, each)]
+        sides: tuple[Any, Any] = size.sense * size.area if is_among(each, own) else 0.0, reduce(add, other, 0.0)
+        if is_spool:  # it fills of each cylinder the side that goes along, where that works
+            both = size.push_area * (each.side != "rod"), -1.0 * size.pull_area * (each.side != "piston")
+            sides = np.where(sense * rate < 0.0, *both), np.where(sense * rate < 0.0, *both[::-1])
+        emptied.append(np.asarray(sides[0]))
+        pushed.append(np.asarray(sides[1]))
+    out = weighed(emptied, rates)
+    return weighed(asks, rates), weighed(drained, rates), out, weighed(pushed, rates) if pushing else -out
+
+
+def rams_beside(line: Circuit, ram: Ram, motion: Poses) -> tuple[Ram, ...]:
+    """Return the cylinders of a line as it works them, one of them as it is given."""
+    return tuple(ram if same(each, ram) else each for each in line.rams(motion))
+
+
+def pushed_back(ram: Ram, line: Circuit, members: NamedMembers) -> list[tuple[Ram, Chamber]]:
+    """Return the chambers whose common pressure pushes a cylinder back: the other sides of its line's cylinders.
+
+    They are those on the line of another pump, else those on its own tank's line, or on no line as its own. A telescope has none, and gas
+    and closed lines no pump.
+    """
+    rams = line.members(members)
+    pumped = next((other for each in rams for other, _ in lines_of(each, members, "held") if not same(other, line)), None)
+    if pumped is not None:
+        return pumped.filling(members)
+    beside = line_beside(ram, behind(ram), line, members)
+    if beside is not None:
+        return [(each, own) for each, own in beside.filling(members) if beside.is_drained and is_among(each, rams)]
+    free = (each for each in rams if not (each.is_single_acting or line_beside(each, behind(each), line, members)))
+    return [(each, Chamber(each, behind(each))) for each in free]
+
+
+def behind(ram: Ram) -> Side:
+    """Return the side on which a cylinder is pushed back, of both the rod's."""
+    return other_side(ram) or ROD
 
 
 class LiftLine(Circuit):
@@ -253,6 +329,10 @@ class LiftLine(Circuit):
             against: Array | float = 0.0 if written.equals(back, 0.0) else back * other
             supply = np.minimum(number("pressure"), number("relief")) if self.relieves(written.plan) else number("pressure")
             force = written.line(f"F_{ram.name}", thrust_along(ram, thrust) / k_m, "kN")
+            if len(self.references) > 1 and not written.equals(back, 0.0):  # the pressure is that of all, which no force of one tells
+                written.given(f"p_{ram.name}", partial(self.pressure_in, ram, acting=Acting()), "bar")
+                written.given(f"kz_{ram.name}", partial(self.reserve, cylinder=ram), "")
+                continue
             written.line(f"p_{ram.name}", (force + against) / (area * k_h), "bar")
             most = written.line(f"Fmax_{ram.name}", supply * area * k_h - against, "kN")
             written.line(f"kz_{ram.name}", most / force)
@@ -324,6 +404,23 @@ class LiftLine(Circuit):
         sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
         return Work(thrust, sense, size, k_m, drained)
 
+    def work_of_all(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
+        """Return the work of a cylinder with the others of its line, which have one pressure with it."""
+        work, rams = self.work_of(cylinder, motion, acting), rams_beside(self, cylinder, motion)
+        if len(rams) == 1:
+            return work
+        if work.size.works != "both":
+            acting = replace(acting, direction=acting.direction or ("retracting" if work.size.works == "rod" else "extending"))
+        others = list[tuple[Work, Array]]()
+        for each in (one for one in rams if not same(one, cylinder)):
+            own, rate = growths(motion, (cylinder, each), cylinder)
+            thrust = moving_with(cylinder, each, motion, acting, partial(self._work_thrust, each, motion))
+            others.append((replace(self.work_of(each, motion, acting), thrust=thrust), rate / own))
+        return replace(work, others=tuple(others))
+
+    def _work_thrust(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
+        return self.work_of(cylinder, motion, acting).thrust
+
     def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
         return self.work(motion, loads, **choice).force
@@ -351,13 +448,17 @@ class LiftLine(Circuit):
                     return lowering
                 if lowering is not None and way is not None:  # over a path in time it counts where it goes that way
                     lowered.append((np.asarray(goes == SENSES[way]), lowering))
-        work = self.work_of(ram, motion, acting)
+        work = self.work_of_all(ram, motion, acting)
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
         found = np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
         for there, pressure in lowered:
             found = np.where(there, pressure, found)
         return found
+
+    def pressure_behind(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
+        asks, drained, _, into = sums_back(cylinder, self, motion, acting, cylinder.ways_back(0.0, 0.0)[0])
+        return (asks - drained) / into
 
     def _pushes_out(self, cylinder: Ram, members: NamedMembers) -> bool:
         """Return whether its pump pushes a cylinder out: it has the piston side, and no line of the cylinder is shut."""
@@ -377,7 +478,7 @@ class LiftLine(Circuit):
     def use_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         if self.kind_open(motion.plan.members) != "held":
             return None
-        work = self.work(motion, cylinder=cylinder, acting=acting)
+        work = self.work_of_all(self.one(motion, cylinder), motion, acting)
         return np.asarray(work.force / self.most(motion, work))[()]
 
     def unit_in(self, judge: Judge) -> str:
@@ -396,8 +497,8 @@ class LiftLine(Circuit):
 
     def most(self, motion: AnyMotion, work: Work, share: float = 1.0) -> Array:
         """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
-        force = self._given(motion, work, share)
-        if np.any(force <= 0.0):
+        force, alone = (self._given(motion, each, share) for each in (work, replace(work, others=())))
+        if np.any(alone <= 0.0):
             raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
         return force
 
@@ -439,7 +540,7 @@ class LiftLine(Circuit):
         rams = self.meant(motion, choice.pop("cylinder", None))
         acting = situation_of("reserve", loads=loads, **choice)
         with np.errstate(invalid="ignore"):
-            works = [self.work_of(ram, motion, acting) for ram in rams]
+            works = [self.work_of_all(ram, motion, acting) for ram in rams]
             return least_of([self.most(motion, work) / only_where(work.force > 0.0, work.force) for work in works])
 
     def capacity(
@@ -599,13 +700,17 @@ class LiftLine(Circuit):
         cylinders the greatest, unless one is named.
         """
         given = situation_of("holding", acting, loads=loads, case=case)
-        working, other = [], []
+        plain, working, other = Acting(given.loads, given.case), [], []
         for ram in self.meant(motion, cylinder):
-            size, thrust = ram.sized(motion), line_thrust(ram, self, motion, Acting(given.loads, given.case))
-            force = size.sense * thrust
-            working.append(np.maximum(force, 0.0) / size.area)
+            size, thrust = ram.sized(motion), line_thrust(ram, self, motion, plain)
+            working.append(np.maximum(size.sense * thrust, 0.0) / size.area)
             beside = line_beside(ram, other_side(ram), self, held_in_case(motion, given).plan.members)
-            other.append(size.behind(np.maximum(-force, 0.0)) if beside is None else beside.line_pressure(motion, given) + 0.0 * thrust)
+            if beside is not None:
+                other.append(beside.line_pressure(motion, given) + 0.0 * thrust)
+            elif np.all(size.back_area > 0.0):
+                other.append(np.maximum(self.pressure_behind(ram, motion, plain), 0.0))
+            else:
+                other.append(size.behind(np.maximum(-thrust, 0.0)))
         return Holding(np.max(working, axis=0), np.max(other, axis=0))
 
     def lowering(

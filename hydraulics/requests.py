@@ -32,7 +32,6 @@ from .cylinders import (
     Options,
     Ram,
     buckling_request,
-    by_other_lines,
     chamber_area,
     circuit_having,
     circuits_among,
@@ -297,7 +296,7 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
 
     def work_of(line: LiftLine, motion: AnyMotion, ram: Ram, acting: Acting) -> tuple[Work, Array]:
         """Return the cylinder's work, and a value above zero where it drives [N]: the thrust in its direction if that is judged."""
-        work = line.work(motion, cylinder=ram, acting=acting)
+        work = line.work_of_all(line.one(motion, ram), motion, acting)
         return work, work.thrust * work.sense if is_judged else work.force
 
     def over_needed(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
@@ -314,12 +313,10 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
 
     def use(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
-        line, size = circuit_with(motion.plan, ram, circuit, "reserve"), ram.sized(motion, acting.direction)
-        k_m, thrust = line.efficiency(motion, "mechanical"), line_thrust(ram, line, motion, acting, with_tanks=False)
-        drained = by_other_lines(ram, line, motion, None, True)
-        sense = 1.0 if acting.direction == "extending" else -1.0
-        most = line.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m, drained))
-        return np.asarray(sense * thrust / (k_m * most))[()]
+        line, sense = circuit_with(motion.plan, ram, circuit, "reserve"), 1.0 if acting.direction == "extending" else -1.0
+        work = line.work_of_all(line.one(motion, ram), motion, acting)
+        thrust = np.where(work.pulls, -work.along, work.along) if work.others else work.thrust
+        return np.asarray(sense * thrust / (work.k_m * line.most(motion, work.towards(sense))))[()]
 
     def directions(plan: Plan) -> tuple[str, ...]:
         return cylinder_on(cylinder, circuit, plan, "reserve").driven

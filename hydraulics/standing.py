@@ -6,9 +6,10 @@ open, as of a cylinder with both sides shut, they are the least that balance.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import reduce
+from functools import partial, reduce
+from operator import add, mul
 
 import numpy as np
 
@@ -48,13 +49,7 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
 
     def thrust_of(ram: Ram) -> Array:
         """Return a cylinder's thrust less the parts of lines with a given pressure."""
-        if acting.direction is None or same(ram, own[0]) or not changes_in_motion(motion, acting.loads):
-            thrust = member_thrust(motion, ram, acting)
-        else:
-            turned = {"extending": "retracting", "retracting": "extending"}.get(acting.movement, acting.movement)
-            ahead, back = (member_thrust(motion, ram, each) for each in (acting, replace(acting, direction=turned)))
-            rates = {next(iter(motion.strokes)): 1.0}
-            thrust = np.where(ram.growth(motion, rates) * own[0].growth(motion, rates) < 0.0, back, ahead)
+        thrust = moving_with(own[0], ram, motion, acting, partial(member_thrust, motion, ram))
         return thrust - by_other_lines(ram, None, motion, None)
 
     ties = [Tie(each.name, each.pressure_shares(members), held=False) for each in lines]
@@ -62,16 +57,37 @@ def standing_pressure(line: Circuit, motion: AnyMotion, acting: Acting) -> Array
     return np.asarray(found[0] + np.zeros(motion.shape))[()] if motion.shape else found[0]
 
 
+def moving_with(first: Ram, ram: Ram, motion: AnyMotion, acting: Acting, law: Callable[[Acting], Array]) -> Array:
+    """Return a law of a cylinder in a situation whose direction is that of another one, which the same stroke moves."""
+    if not acting.is_moving or same(ram, first) or not changes_in_motion(motion, acting.loads):
+        return law(acting)
+    turned = replace(acting, direction="retracting" if acting.direction == "extending" else "extending")
+    return np.where(growths(motion, (first, ram), first)[1] < 0.0, law(turned), law(acting))
+
+
+def growths(motion: AnyMotion, rams: Sequence[Ram], first: Ram) -> list[Array]:
+    """Return how the lengths of cylinders that one stroke moves follow it, while that of the first of them grows; 1 of one alone."""
+    if len(rams) == 1:
+        return [np.ones(())]
+    rates = {stroke_followed(motion.plan, first): 1.0}
+    sense = np.sign(first.growth(motion, rates))
+    return [ram.growth(motion, rates) * sense for ram in rams]
+
+
+def weighed(values: Iterable[Array | float], weights: Iterable[Array]) -> Array:
+    """Return the sum of forces or areas of cylinders, each times its weight."""
+    return np.asarray(reduce(add, map(mul, values, weights)))[()]
+
+
 def common_sum(motion: AnyMotion, rams: Sequence[Ram], values: Sequence[tuple[Ram, Array]]) -> Array:
     """Return the sum of forces or areas of cylinders that one stroke moves: of several each counts by how its length follows that."""
-    rates = {stroke_followed(motion.plan, rams[0]): 1.0} if len(rams) > 1 else {}
-    return np.asarray(reduce(np.add, [value * ram.growth(motion, rates) if rates else value for ram, value in values]))[()]
+    rates = dict(zip((each.name for each in rams), growths(motion, rams, rams[0]), strict=True))
+    return weighed([value for _, value in values], [rates[ram.name] for ram, _ in values])
 
 
 def common_area(motion: AnyMotion, rams: Sequence[Ram], filling: Sequence[tuple[Ram, Chamber]]) -> Array:
     """Return the same sum of the signed areas of those chambers that are of these cylinders [m2]."""
-    own = [(ram, chamber_area(each, ram, motion)) for ram, each in filling if is_among(ram, rams)]
-    return common_sum(motion, rams, own)
+    return common_sum(motion, rams, [(ram, chamber_area(each, ram, motion)) for ram, each in filling if is_among(ram, rams)])
 
 
 # What a load case shuts.

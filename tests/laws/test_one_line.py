@@ -333,6 +333,50 @@ def shared(seed):
     return made(base=Mechanism, **members, **parked), arms
 
 
+def growth_of(machine, poses, stroke, rams):
+    """Return how lengths of rams follow a stroke, by differences."""
+    lengths = []
+    for step in (-2e-4, -1e-4, 1e-4, 2e-4):
+        near = machine.at(unreachable="nan", **{**poses, stroke: poses[stroke] + step})
+        lengths.append(np.array([near.distance(*machine.plan.members[ram].ends) for ram in rams]))
+    return dict(zip(rams, (lengths[0] - 8 * lengths[1] + 8 * lengths[2] - lengths[3]) / 12e-4, strict=True))
+
+
+def areas_of(machine, ram):
+    """Return the signed areas of both sides of a ram, by name."""
+    bore, rod = machine.plan.members[ram].bore, machine.plan.members[ram].rod
+    return {"piston": math.pi / 4 * bore**2, "rod": -math.pi / 4 * (bore**2 - rod**2)}
+
+
+def volume_rate(machine, line, growth):
+    return sum(growth[label(each.cylinder)] * areas_of(machine, label(each.cylinder))[each.side] for each in line.chambers)
+
+
+def check_lowering(machine, poses, stroke, kind, rams, lines, resistance=60 * bar):
+    """All rams of a line go back by one pressure of the other side, by the work of both on a small step."""
+    motion, growth = machine.at(unreachable="nan", **poses), growth_of(machine, poses, stroke, rams)
+    thrusts = {ram: machine.plan.members[ram].thrust(motion) for ram in rams}
+    work = sum(thrusts[ram] * growth[ram] for ram in rams)
+    for own, other in (lines, lines[::-1]) if lines else ():
+        if own.is_drained:
+            continue
+        push = (work - resistance * volume_rate(machine, own, growth)) / volume_rate(machine, other, growth)
+        push = np.where(push > (other.line_pressure(motion) if other.is_drained else 0.0), push, 0.0)
+        for ram in {label(each.cylinder) for each in own.chambers}:
+            assert_allclose(own.lowering(motion, resistance=resistance, cylinder=ram).push, push, rtol=1e-7, atol=10.0, err_msg=kind)
+    for k in range(len(poses["S"])) if not lines else ():
+        spool, spread = machine.plan.members[f"line{stroke == 'R':d}"], {"both": ("piston", "rod")}
+        there = machine.at(unreachable="nan", **{name: each[k] for name, each in poses.items()})
+        for ram in (each for each in rams if machine.plan.members[each].works == "both" and np.isfinite(thrusts[each][k])):
+            way = -np.sign(thrusts[ram][k] * growth[ram][k])
+            sums = {True: 0.0, False: 0.0}
+            for each in rams:
+                for side in spread.get(machine.plan.members[each].works, (machine.plan.members[each].works,)):
+                    sums[(way * growth[each][k] < 0.0) == (side == "piston")] += way * growth[each][k] * areas_of(machine, each)[side]
+            push = max((way * work[k] - resistance * sums[True]) / sums[False], 0.0)
+            assert_allclose(spool.lowering(there, resistance=resistance, cylinder=ram).push, push, rtol=1e-7, atol=10.0)
+
+
 @for_all("seed", (4, 5), slow=(*range(4), *range(6, 20)))
 def test_rams_of_one_line_have_its_pressure_on_the_side_that_it_fills(seed):
     structure, arms = shared(seed)
@@ -350,6 +394,7 @@ def test_rams_of_one_line_have_its_pressure_on_the_side_that_it_fills(seed):
         assert_allclose(needed, np.where(np.isnan(needed), np.nan, driving_force(motion, drive=stroke)), rtol=1e-9)
         sizes = [members[ram].sized(motion) for ram in rams]
         lines = [each for each in members.values() if isinstance(each, OilLine) and each.name.startswith(f"line{stroke == 'R':d}")]
+        check_lowering(machine, poses, stroke, kind, rams, lines)
         if kind == "spool":
             sides = [np.where(each > 0.0, size.push_area, size.pull_area) for each, size in zip(thrusts, sizes, strict=True)]
             found = [abs(each) / side for each, side in zip(thrusts, sides, strict=True)]
@@ -395,6 +440,41 @@ def test_what_a_line_and_a_chart_lift_brings_a_line_to_its_pumps_pressure(seed):
     charted = LoadAt(machine.plan, machine.plan.defaults, "T", way).at(poses).min(axis=0)
     compared = (charted > 0.0) & (least_lifted < np.inf)  # a chart's load may be the one that drives a side that no pump fills
     assert_allclose(charted[compared], least_lifted[compared], rtol=1e-8)
+
+
+@for_all("seed", (0,), slow=range(1, 12))
+def test_losses_and_a_returning_pressure_leave_one_pressure_on_a_line(seed):
+    draw, kind = Random(seed), ("crossed", "alike", "number", "bare")[seed % 4]
+    members, rams = dict(S=Stroke(-0.3, 0.3), O=Ground(0.0, 0.0), B=Crank("O", OB=0.5, angle="S")), ["ram0", "ram1"]
+    for k, ram in enumerate(rams):
+        up = -1 if k and kind == "crossed" else 1
+        members[f"A{ram}"] = Ground(draw.uniform(-0.3, 0.3), -up * draw.uniform(0.4, 0.7))
+        members[ram] = Cylinder(f"A{ram}", "B", bore=draw.uniform(60, 120) * mm, rod=draw.uniform(25, 55) * mm)
+    members |= dict(load=Force("B", (0.0, -40 * kN)), rub=PinFriction("O", radius=60 * mm, coefficient=0.2))
+    losses, back = dict(mechanical_efficiency=0.85, hydraulic_efficiency=0.9), draw.uniform(5, 30) * bar
+    sides = [("piston", "rod"), ("rod", "piston") if kind == "crossed" else ("piston", "rod")]
+    joined = [[f"{ram}.{side[k]}_side" for ram, side in zip(rams, sides, strict=True)] for k in (0, 1)]
+    members |= dict(line=OilLine(*joined[0], Pump(250 * bar, **losses)), drain=OilLine(*joined[1], Tank(back)))
+    if kind == "number":
+        members = {**members, "line": LiftCircuit(rams, pressure=250 * bar, back_pressure=back, **losses)}
+    if kind in ("number", "bare"):
+        del members["drain"]
+    machine, poses = made(base=Mechanism, **members)(), dict(S=np.array([-0.25, 0.05, 0.28]))
+    motion, growth, line = machine.at(**poses), growth_of(machine, poses, "S", rams), machine.plan.members["line"]
+    ways = {"ram0": "extending", "ram1": "retracting" if kind == "crossed" else "extending"}
+    work = sum(machine.plan.members[ram].thrust(motion, direction=ways[ram]) * growth[ram] for ram in rams)
+    rates = [sum(growth[ram] * areas_of(machine, ram)[side[k]] for ram, side in zip(rams, sides, strict=True)) for k in (0, 1)]
+    assert np.all(work > 0.0)
+    pressed = (work / 0.85 - (0.0 if kind == "bare" else back) * rates[1]) / rates[0] / 0.9
+    used = (250 * bar * 0.9 * rates[0] + (0.0 if kind == "bare" else back) * rates[1]) / (work / 0.85)
+    for ram in rams:
+        assert_allclose(line.pressure_for(motion, cylinder=ram, direction=ways[ram]), pressed, rtol=1e-8)
+        assert_allclose(line.reserve(motion, cylinder=ram, direction=ways[ram]), used, rtol=1e-8)
+        assert_allclose(np.ravel(machine.evaluate([reserve(ram, direction=ways[ram])], **poses)), used, rtol=1e-8)
+    told = [str(each) for each in machine.verdicts()]
+    for rule in ("lifting", "holding", "lowering"):
+        numbers = [re.findall(r"[\d.]+ bar|reserve is [\d.]+", each) for each in told if f" {rule} " in each]
+        assert len(numbers) == 2 and numbers[0] == numbers[1], (rule, told)
 
 
 class Swing(Mechanism):

@@ -229,9 +229,24 @@ def is_yes(name: str, given: object) -> bool:
     return given
 
 
+FIELD_WORDS = {
+    "diameter": "bore rod", "piston": "bore", "piston_diameter": "bore", "rod_diameter": "rod", "travel": "stroke", "weight": "mass",
+    "force": "thrust drive_force mass", "load": "thrust mass", "volume": "flow", "delivery": "flow", "displacement": "stroke flow",
+    "length": "distance stroke", "torque": "moment drive_force", "rate": "stiffness flow", "leverage": "ratio", "safety": "reserve",
+}  # fmt: skip
+"""Words of the field for what has another name here."""
+
+
 def did_you_mean(name: object, names: Sequence[str]) -> str:
-    """Return " Did you mean ...?" with the nearest of some names; "" where none is near."""
-    near = get_close_matches(name, names, n=1, cutoff=0.5) if isinstance(name, str) else []
+    """Return " Did you mean ...?" with the nearest of some names, of the same member first; "" where none is near."""
+    whose, _, word = name.rpartition(".") if isinstance(name, str) else ("", "", "")
+    other = FIELD_WORDS.get(word.lower(), "").split()
+    near = [each for own in other for each in names if each.replace(" ", "_") in (own, f"{whose}.{own}")]
+    near = near or [each for own in other for each in names if each.rpartition(".")[2] == own][:3]
+    if isinstance(name, str) and not near:
+        own = [each for each in names if whose and each.startswith(f"{whose}.")]  # a member that is there: which of its own is it?
+        near = [f"{whose}.{each}" for each in get_close_matches(word, [each[len(whose) + 1 :] for each in own], n=1, cutoff=0.5)]
+        near = near if own else get_close_matches(name, names, n=1, cutoff=0.5)
     if isinstance(name, str) and not near:  # a word of longer names
         words = get_close_matches(name, {word for each in names for word in each.split("_")}, n=1, cutoff=0.8)
         near = [each for each in names if {*each.split("_")} & {*words}][:3]

@@ -12,7 +12,7 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, ismethod, signature
 from typing import Any, TypeAlias
 
-from ..errors import DefinitionError, cited, ensure, errors_of, is_listed, require, require_type
+from ..errors import DefinitionError, cited, did_you_mean, ensure, errors_of, is_listed, require, require_type
 from ..frozen import FrozenDict, immutable
 from ..loads import ForceElement
 from ..quantities import Member
@@ -140,7 +140,7 @@ def check_keys(given: Iterable[Any], known: Iterable[str], mistakes: Mistakes) -
     """Note the keys that are none."""
     for key in given:
         if key not in known:
-            mistakes.add((str(key),), "is not a key of it.")
+            mistakes.add((str(key),), f"is not a key of it.{did_you_mean(key, [*known])}")
 
 
 def made_of(found: FileTable, arguments: Iterable[Argument]) -> Keywords:

@@ -24,6 +24,11 @@ def test_unknown_name_lists_the_known_and_the_nearest():
 
 def test_unknown_name_with_nothing_near_or_nothing_at_all():
     assert "Did you mean" not in str(unknown("Dimension", "zzz", ["OB"]))
+    sizes = ["OB", "lift.bore", "ram.bore", "ram.rod", "ram.stroke"]  # words of the field, of the same member first
+    meanings = {"ram.diameter": "ram.bore or ram.rod", "diameter": "lift.bore or ram.bore or ram.rod", "ram.piston": "ram.bore"}
+    for word, meant in meanings.items():
+        assert f"Did you mean {meant}?" in str(unknown("Dimension", word, sizes))
+    assert "Did you mean" not in str(unknown("Dimension", "lift.travel", sizes[:2]))
     assert str(unknown("Stroke", "S", [])).endswith("Known: none.")
 
 

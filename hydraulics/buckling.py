@@ -214,7 +214,7 @@ class Buckling:
         one_number(length, "Length between the ends", "length")
         limit, ok = float(self.critical(length)), thrust <= float(self.allowed(length))
         given = {
-            "thrust": show(thrust, "kN", 4), "rod": show(self.rod, "mm", 4), "length": show(length, "mm", ".0f"),
+            "thrust": show(thrust, "kN", 4), "rod": show(self.rod, "mm", 4), "length": show(length, "mm", 4),
             "mounting": translated(self.mounting), "where": f" {where}" if where else "", "limit": show(limit, "kN", 4),
             "safety": shown_number(limit / thrust, "", 3), "least": self.safety,
         }  # fmt: skip

@@ -723,7 +723,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             "Against a stop, which this rule leaves out, {ram} pushes with {force} at {pressure}, whatever its load. "
             "At its longest, {length}, it buckles at {limit}: safety {safety}.",
             ram=self.name or self, force=f"{times}{show(force, 'kN', 4)}", pressure=show(pressure, unit, 4),
-            length=show(longest.value, "mm", ".0f"), limit=f"{times}{show(limit, 'kN', 4)}", safety=shown_number(limit / force, "", 3),
+            length=show(longest.value, "mm", 4), limit=f"{times}{show(limit, 'kN', 4)}", safety=shown_number(limit / force, "", 3),
         )  # fmt: skip
         if limit < force:
             text = f"{text} {said('Below 1 it buckles before the pump pushes so hard: keep it off that stop, or take a thicker rod.')}"

@@ -24,7 +24,7 @@ from linkage.motion.measures import Condition, at, least, most
 from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
 from linkage.quantities.member import in_class
 from linkage.statics import LawRequest, elements_of, is_among, same
-from linkage.units import UNITS, show
+from linkage.units import UNITS, litre, show
 from linkage.verdict import Verdict
 
 from .cylinders import (
@@ -645,9 +645,8 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
         oil = float(high.value - low.value)
     both = [(ram, high - low) for ram, (low, high) in zip(rams, ends, strict=True) if ram.side == "both"]
     back = sum(float(way) * one_design(ram.sized(judge.motion).pull_area) for ram, way in both)
-    says = said("{oil} from end to end", oil=show(oil, "l", ".2f"))
-    if back:
-        says = said("{oil} from end to end outwards, {back} inwards", oil=show(oil, "l", ".2f"), back=show(back, "l", ".2f"))
+    out, inwards = (show(each, "l", ".2f" if each > 0.1 * litre else 3) for each in (oil, back))
+    says = said("{oil} from end to end outwards, {back} inwards", oil=out, back=inwards) if back else said("{oil} from end to end", oil=out)
     rate = one_design(circuit.number(judge.motion, "flow"))
     if not rate > 0.0:
         return Verdict("oil", True, said("{says}; time follows from the pump's flow, which is not given.", says=says))

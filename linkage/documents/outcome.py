@@ -25,7 +25,7 @@ from ..pictures.shown_values import as_curve, limit_of
 from ..pictures.style import ACCENT, INK, THIN, TITLE
 from ..program import FloatArray
 from ..reports import Run, dagger_words, friction_of_columns, run_words
-from ..reports.table import NO_VALUE, column_blocks, dagger_ends, flat
+from ..reports.table import NO_VALUE, ROUNDING, column_blocks, dagger_ends, flat
 from ..reports.table import column_texts as text_cells
 from ..units import UNITS, factor, unit_sign
 from .content import Block, Cell, Illustration, Section, TableBlock
@@ -129,10 +129,13 @@ def curve_blocks(
 ) -> Iterator[Block]:
     """Yield the curves along a run, the one the machine is about first."""
     along, held, words = ", ".join(run.ways), subject.words(dict(run.held)), run_words(subject.machine, run)
-    whole = subject.columns_along(run, motion)
+    whole = {name: column for name, column in subject.columns_along(run, motion).items() if np.isfinite(column.values).any()}
     left = coordinates_of(subject.machine) | {*subject.doubles} if names is None else {*whole} - {*names}
     drawn = [name for name in whole if name != first and name not in left]
-    same = one_curve([first, *drawn], whole, limits)
+    drawn = [first, *drawn] if first in whole else drawn
+    if not drawn:
+        return
+    first, same = drawn[0], one_curve(drawn, whole, limits)
     first = next(name for name in same if first in (name, *same[name]))
     still = [name for name in same if name not in (first, *limits) and still_text(subject, whole[name])]
     if still and (names is not None or subject.has_own_table):
@@ -179,9 +182,9 @@ def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mappi
 
 
 def still_text(subject: ReportSubject, column: Column) -> str:
-    """Return a column's value as it is shown, if it is the same all along; else ""."""
+    """Return a column's value as it is shown, if it is the same all along, NO_VALUE of one without any; else ""."""
     values = np.asarray(column.shown, float).ravel()
-    texts = {*cell_texts(subject, column, values[np.isfinite(values)])}
+    texts = {*cell_texts(subject, column, values[~np.isnan(values)])} or {NO_VALUE}
     return texts.pop() if len(texts) == 1 else ""
 
 
@@ -282,8 +285,8 @@ def cell_texts(subject: ReportSubject, column: Column, values: FloatArray) -> li
 
 def figures(value: float) -> str:
     """Return a number with FIGURES digits, whole from there on; "0" for one so small that it is rounding."""
-    text = f"{value:z#.{FIGURES}g}" if value else "0"
-    return f"{value:z.0f}" if "e" in text else text.removesuffix(".")
+    text = f"{value:z#.{FIGURES}g}" if abs(value) > ROUNDING else "0"
+    return f"{value:z.0f}" if "e+" in text else text.removesuffix(".")
 
 
 # -- cylinders and springs ---------------------------------------------------------------------------------

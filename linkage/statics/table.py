@@ -67,11 +67,14 @@ class PinLoad:
     @property
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the units and the language that are chosen."""
-        force, angle = shown_number(self.force, "kN", ".3f"), shown_number(self.angle, "deg", "z.1f")
+        force = shown_number(self.force, "kN", 3 if SMALL < self.force < 100.0 else ".3f")
+        angle = shown_number(self.angle, "deg", "z.1f")
         kind = translated(WORDS.get(self.kind, self.kind))
         return self.point, kind, self.on, self.by, force, angle, self.axis, self.place, self.case, self.movement
 
 
+SMALL = 1e-3
+"""A force [N] up to which it may be rounding; below 0.1 kN a larger one has three figures, as those of models and tools have."""
 WORDS = {
     "pin": noted("pin"), "guide": noted("guide"), "slot": noted("slot"), "driven": noted("driven point"), "crank": noted("crank"),
     "slider": noted("slider"), "telescope": noted("telescope"), "upright": noted("upright"), "frictionless": noted("frictionless"),

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from scipy.optimize import brentq
 
-from hydraulics import Cylinder, LiftCircuit, flow, power, thrust
+from hydraulics import Cylinder, LiftCircuit, OilLine, Pump, flow, power, thrust
 from linkage import (
     RIGHT,
     Acting,
@@ -654,3 +654,26 @@ def test_an_equal_thrust_is_no_second_column_and_a_frame_on_axles_has_no_given_f
     assert "Thrust right is thrust left" in text and "thrust left, kN" in text and "thrust right, kN |" not in text
     names = [name for name, *_ in dimension_table(Digger(), equations(Digger()), {}).rows]
     assert "front.friction" in names and "front.force" not in names
+
+
+class Syringe(Mechanism):
+    """A desk model: its loads are newtons, its oil millilitres, and the load drives its one cylinder all the way."""
+
+    S = Stroke(90 * mm, 140 * mm)
+    A, O = Ground(0.0, 40 * mm), Ground(60 * mm, 40 * mm)
+    B = Dyad(O, A, OB=90 * mm, AB=S, side=RIGHT)
+    G = OnLink(O, B, OG=180 * mm, BOG=-30 * deg)
+    load = Weight(G, mass=0.2)
+    ram = Cylinder(A, B, bore=15.9 * mm, rod=6 * mm)
+    line = OilLine(ram.piston_side, Pump(2 * bar))
+
+
+def test_a_desk_model_has_figures_and_no_curve_without_a_value():
+    machine = Syringe()
+    text = markdown(report_document(machine, count=3), defaultdict(str))
+    least, most = machine.at(S=[90 * mm, 140 * mm])[thrust("ram")] / 1e3
+    assert f"{least:.4g}" in text and f"{most:.4g}" in text
+    assert "0.00993 l from end to end" in text and "At its longest, 140 mm" in text
+    assert "thrust, kN along S" in text and "reserve -." in text and "reserve in % along" not in text
+    forces = {row.cells[0]: row.cells[4] for row in max_table(machine)}
+    assert forces["A"] == f"{-most:.3g}" and float(forces["O"]) > 0.0

@@ -10,12 +10,13 @@ import numpy as np
 
 from ..errors import AssemblyError, SingularError, ensure, require_type, unknown, unwarned
 from ..language import noted, said, translated
-from ..loads import Case, LoadCase, Loads
+from ..loads import PLAIN, Acting, Case, LoadCase, Loads
 from ..motion import Motion
 from ..plan.members import FRAME
 from ..program import FloatArray
 from ..reports import case_along, in_case_words
-from ..statics import JointForce, PinForces, pin_forces
+from ..statics import JointForce, PinForces
+from ..statics.joint_forces import joint_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
 from .drawn_loads import centre_of_mass, drawn_together, on_its_line, resultant
@@ -30,28 +31,21 @@ Rates: TypeAlias = Mapping[str, Any] | None
 SENSE = noted("A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds.")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class ForceQuestion:
-    """Which forces are drawn: all, or those on one body; and of which loads, as `pin_forces` takes them."""
+    """Which forces are drawn: all, or those on one body; and in which situation."""
 
     body: str = ""
-    loads: Loads = None
-    case: Case = None
-    direction: str | None = None
-    drive: str | None = None
-    rates: Rates = None
+    acting: Acting = PLAIN
 
     def along(self, motion: Motion) -> ForceQuestion:
         """Return the same in the load case that a motion is shown in, where neither loads nor a case are said."""
-        return self if self.case is not None or self.loads is not None else replace(self, case=case_along(motion))
+        is_said = self.acting.case is not None or self.acting.loads is not None
+        return self if is_said else replace(self, acting=replace(self.acting, case=case_along(motion)))
 
     def pose_heading(self, motion: Motion, pose: int) -> str:
         """Return the strokes at a pose and the load case, in words."""
-        return ", ".join(filter(None, (pose_words(motion, pose), in_case_words(motion.plan, self.along(motion).case))))
-
-    def pin_forces(self, motion: Motion) -> PinForces:
-        """Return the forces of a motion."""
-        return pin_forces(motion, self.loads, case=self.case, direction=self.direction, drive=self.drive, rates=self.rates)
+        return ", ".join(filter(None, (pose_words(motion, pose), in_case_words(motion.plan, self.along(motion).acting.case))))
 
 
 def force_question(
@@ -65,7 +59,8 @@ def force_question(
         return None
     if forces is not True:
         require_type("draw(forces", forces, str, 'say forces=True, or the body whose forces are drawn, forces="OBC"')
-    return ForceQuestion("" if forces is True else str(forces), loads, case, direction, drive, rates)
+    require_type("draw(velocities", rates or {}, Mapping, "a value for each stroke is expected, such as velocities=dict(S=0.05)")
+    return ForceQuestion("" if forces is True else str(forces), Acting(loads, case, direction, rates, drive))
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,9 +91,9 @@ def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> Forces
     question = question.along(motion)
     with unwarned():
         try:
-            found = ForcesAt(question.pin_forces(motion), pose)
+            found = ForcesAt(joint_forces(motion, question.acting), pose)
         except SingularError:
-            found = ForcesAt(question.pin_forces(one_pose(motion, pose, "nan")), 0)
+            found = ForcesAt(joint_forces(one_pose(motion, pose, "nan"), question.acting), 0)
     if all(np.isfinite(found.one(joint.force)).all() for joint in found.found.joints):
         return found
     words = why_no_forces(motion, pose, question) or next(iter(found.found.remarks), said("the forces are not known here"))
@@ -110,7 +105,7 @@ def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> Forces
 def why_no_forces(motion: Motion, pose: int, question: ForceQuestion) -> str:
     """Return why a pose has no forces, in words; empty where nothing refuses them."""
     try:
-        question.pin_forces(one_pose(motion, pose))
+        joint_forces(one_pose(motion, pose), question.acting)
     except AssemblyError as error:
         return str(error)
     return ""

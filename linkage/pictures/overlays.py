@@ -92,7 +92,7 @@ class Overlays:
                 else:
                     layers.append(force_layer(forces))
                 notes += [remark.replace("rates=dict(", "velocities=dict(") for remark in forces.found.remarks]
-            if vars(self.forces) == vars(ForceQuestion()):  # all forces, of the machine's own loads
+            if self.forces == ForceQuestion():  # all forces, of the machine's own loads
                 notes += filter(None, [pose_sentence(one_pose(motion, pose))])
         if self.rates is not None:
             layers.append(velocity_layer(motion, pose, self.rates))

@@ -12,7 +12,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from linkage import Answer, Motion, deg, draw, kN, plot
+from linkage import Acting, Answer, Motion, deg, draw, kN, plot
 from linkage.pictures import style
 from linkage.pictures.force_arrows import ForceQuestion
 from linkage.pictures.overlays import Overlays
@@ -106,7 +106,7 @@ def movements(crane: Crane) -> Figure:
     for ax, (words, (low, high, phi, aside, t)) in zip(axes, there.items(), strict=False):
         psi = 0.5 * (low + high)
         motion = crane.at(phi=psi + aside if phi is None else phi, psi=psi, t=t)
-        sense = draw_over(ax, motion, 0, Overlays(ForceQuestion("J", case="lifting"))).partition(". ")[2]
+        sense = draw_over(ax, motion, 0, Overlays(ForceQuestion("J", Acting(case="lifting")))).partition(". ")[2]
         place = f"$\\varphi$ = {float(motion.strokes['phi']) / deg:.0f}°, $\\psi$ = {psi / deg:.0f}°"
         headed(ax, f"{words}: {place}\n{sense}", pad=8, fontsize=style.SMALL + 0.5)
     return page

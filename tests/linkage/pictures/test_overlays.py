@@ -15,6 +15,7 @@ from numpy.testing import assert_allclose
 
 from linkage import (
     LEFT,
+    Acting,
     Crank,
     DefinitionError,
     Dyad,
@@ -377,7 +378,7 @@ def test_wrong_questions_are_refused_in_words(given, words):
 def about(machine, pin, case=None, **strokes):
     """Return the moments of the loads about a pin and of what holds them [Nm], with the lever arms by their lengths [m]."""
     at = machine.at(**strokes)
-    (loads, held), arms = lever_arms(forces_at_pose(at, 0, ForceQuestion(pin, case=case)), at, pin, (0.0, 1.0, 0.0, 1.0), 0.01)
+    (loads, held), arms = lever_arms(forces_at_pose(at, 0, ForceQuestion(pin, Acting(case=case))), at, pin, (0.0, 1.0, 0.0, 1.0), 0.01)
     moments = [moment_about(at[pin], list(layer.arrows), list(layer.turning)) for layer in (loads, held)]
     for arm in arms:  # square to the force, from the pin to its line of action
         (force,) = [each for each in (*loads.arrows, *held.arrows) if each.at is arm.start]

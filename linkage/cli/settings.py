@@ -22,7 +22,7 @@ from ..quantities import Dimension, Quantity, Stroke
 from ..reports import NOTHING, At, Run, case_along, force_columns, motion_over, reached_motion, results, run_of, runs_of, stroke_middles
 from ..reports.runs import stroke_grid
 from ..steps import Point
-from ..units import UNITS, parse, parse_span
+from ..units import UNITS, display_unit, parse, parse_span, show
 from ..verdict import Verdict
 from .command import MOST, option, repeatable, say_remark
 from .machines import Kind, design_of_file, find
@@ -151,11 +151,22 @@ def parsed_settings(machine: Mechanism | type[Mechanism], texts: Sequence[str]) 
     return dict(parsed_setting(machine.plan, text) for text in texts)
 
 
+ODD = 50.0
+"""A number without a unit that is so many times its default, or so small a part of it, but not in the unit that is shown, lacks that."""
+
+
 def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:
     """Return a setting as a name and its SI value; a point's value is a pair."""
     name, value = pair(text, "--set", "OB=180mm")
     if name in plan.table.spellings:
-        return name, si_value(value, plan_measure(plan, plan.table.spellings[name][0]), f"--set {name}")
+        own = plan.table.spellings[name][0]
+        kind, usual = plan_measure(plan, own), abs(plan.defaults.get(own, 0.0))
+        found, unit = si_value(value, kind, f"--set {name}"), display_unit(kind, "mm" if kind == "length" else "")
+        if unit and not value[-1].isalpha() and usual:
+            is_odd, is_odd_so = (not 1.0 / ODD < abs(each) / usual < ODD for each in (found, parse(value + unit)))
+            meant = f"{show(abs(found), unit)} in SI, where {plan.title} has {show(usual, unit)}"
+            ensure(is_odd_so or not is_odd, f"--set {text}: without a unit this is {meant}; write the unit, such as --set {text}{unit}.")
+        return name, found
     if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
         parts = value.split(",")
         example = f"{name}=0.22,950mm; decimals are written with a point"

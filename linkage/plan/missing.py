@@ -10,7 +10,7 @@ from ..quantities import joined_names, needs, source_text
 from ..steps import Guide, Point, Step
 from ..units import mm
 from ..vectors import FloatArray, Mask
-from .members import Members
+from .members import Members, plan_measure
 from .reading import ArrayReading
 
 #: A side so many times longer than the others was given in another unit.
@@ -116,6 +116,10 @@ def length_text(length: float) -> str:
 def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values: FloatArray, reading: ArrayReading) -> str:
     """Return the remedy: the stroke that a side follows, a dimension that closes the gap, or a unit that looks mistaken."""
     others = [index for index in range(len(labels)) if index != longest]
+    for given, usual in plan.defaults.items():  # a dimension that is given in millimetres is the cause, whatever it makes too long
+        value = float(np.max(np.abs(reading.inputs.get(given, 0.0))))
+        if value > MISTAKEN * abs(usual) > 0.0 and plan_measure(plan, given) == "length":
+            return f"Are all lengths in m? {given} = {value:.6g} m, {usual:.4g} m in the class, would be {value:.6g} * mm."
     short, middle = sorted(values[others])
     is_short = values[longest] > WIDE / 10.0 and middle > MISTAKEN * short and values[longest] - middle > 10.0 * short
     if is_short or values[longest] > min(WIDE, MISTAKEN * middle):

@@ -300,6 +300,13 @@ def test_a_length_or_a_load_is_asked_about_in_its_own_words(lengths, line, words
         exec(f"class Machine(Mechanism):{TILT.format(lengths=lengths)}    {line}\nMachine().sweep(S=0.0)", names)
 
 
+def test_the_dimension_in_another_unit_is_named_and_no_distance_that_it_makes_long():
+    from mechanisms.classics.four_bar import FourBar
+
+    with pytest.raises(linkage.LinkageError, match=r"AC = 120.1 m\. .* OA = 120 m, 0\.04 m in the class, would be 120 \* mm"):
+        FourBar(OA=120).sweep(3)
+
+
 def test_a_name_that_is_nearly_right_or_a_heading_of_a_table_is_answered_with_the_right_one():
     machine = made(TILT.format(lengths=RIGHT_LENGTHS))
     with pytest.raises(AttributeError, match=r"Weight has no attribute 'mas'\. Did you mean mass"):

@@ -161,7 +161,7 @@ USES = [
     ("table lever.py --set @", "O=a,b", ("hydrolinkage: --set O: 'a' is not a value;", "and a unit, such as 180mm or -75deg.")),
     ("table lever.py --set @", "AB=0.3", ("hydrolinkage: Lever(AB=...): AB follows S; set what it follows.",)),
     ("table lever.py --set @", "OB=0,2m", ("hydrolinkage: --set OB: '0,2m': decimals are written with a point, '0.2m'.",)),
-    ("table lever.py --set @", "OB=200", ("hydrolinkage: B = Dyad(A, O) cannot be", "200 m would be 200 * mm.")),
+    ("table lever.py --set @", "OB=200", ("hydrolinkage: --set OB=200: without a unit this is 200000 mm in SI", "--set OB=200mm.")),
     (
         "table lever.py @",
         "nothing; S_x; turn nothing",

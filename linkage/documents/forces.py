@@ -116,7 +116,7 @@ def drive_rows(subject: ReportSubject) -> Iterator[tuple[str, ...]]:
         others = ends[: len(shown)] if k < drives.stop else ends[drives]
         if np.isnan(low.value) or any(np.allclose(ends[k], each, rtol=SAME, atol=0.0) for each in others):
             continue
-        column = Column(name, np.zeros(1), unit, 3)
+        column = Column("force", np.zeros(1), unit, 3)  # no column of a table, as the name of its stroke may be
         yield name, unit_sign(unit), amount_text(subject, low, column), low.place, amount_text(subject, high, column), high.place
 
 

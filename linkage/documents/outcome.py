@@ -41,6 +41,8 @@ NO_LETTER = re.compile("[^0-9A-Za-z]")
 COUNTED = ("force", "moment", "pressure")
 MOST_RESERVE = 100.0
 """Of a greater reserve no table tells more: next to where nothing is carried it is without bounds."""
+MOST_TOLD, STILL_CELLS = 20, 6
+"""Results that stay the same: as many as a sentence tells, and the cells of a row where a table does."""
 LETTERS, TWO_LINES = 118, 7
 """Letters of a table's row, so that it fits across a page, and of a heading that stands in two lines."""
 
@@ -87,7 +89,7 @@ def results_blocks(
     A table has the columns named, else all: coordinates last, no force beside a thrust that it is, those that are the same at all
     poses as a sentence. DefinitionError for an unknown name.
     """
-    places = coordinates_of(subject.machine)
+    places, told = coordinates_of(subject.machine), dict[str, str]()
     for (run, motion), found in zip(subject.tables, subject.table_columns, strict=True):
         held, words = subject.words(dict(run.held)), run_words(subject.machine, run)
         text = said("Along {stroke}, with {held} held.", stroke=", ".join(run.ways), held=held) if held and run.is_curve else ""
@@ -112,9 +114,9 @@ def results_blocks(
         moving = [column for column in shown if np.size(column.values) > 1 and column.name not in run.ways]
         texts = {} if names or subject.has_own_table else {column: still_text(subject, column) for column in moving}
         yield from column_grids(subject, caption, [column for column in shown if not texts.get(column)], outside)
-        if any(texts.values()):
-            still = [f"{heading_of(each.name)} {text} {unit_sign(each.unit)}".strip() for each, text in texts.items() if text]
-            yield said("The same at all these poses: {values}.", values=", ".join(still))
+        still = {heading_of(each.name): f"{text} {unit_sign(each.unit)}".strip() for each, text in texts.items() if text}
+        yield from still_blocks(still, told)
+        told = still
         yield from filter(None, [dagger_words() if any(outside) else "", friction_of_columns(motion, shown)])
     if names is None and subject.doubles:
         pairs = (said("{drive} is {thrust}", drive=heading_of(one), thrust=heading_of(other)) for one, other in subject.doubles.items())
@@ -122,6 +124,19 @@ def results_blocks(
         yield f"{text[:1].upper()}{text[1:]}."
     for run, motion in subject.curves:
         yield from curve_blocks(subject, run, motion, names if len(subject.curves) == 1 else [first, *limits], first, limits)
+
+
+def still_blocks(still: Mapping[str, str], before: Mapping[str, str]) -> Iterator[Block]:
+    """Yield what stays the same over a run: a few results as a sentence, many as a table, without those that are as in the run before."""
+    cells = [cell for name, text in still.items() if before.get(name) != text for cell in (name, text)]
+    if 0 < len(still) <= MOST_TOLD:
+        yield said("The same at all these poses: {values}.", values=", ".join(f"{name} {text}" for name, text in still.items()))
+    elif cells:
+        cells += [""] * (-len(cells) % STILL_CELLS)
+        rows = tuple(tuple(cells[at : at + STILL_CELLS]) for at in range(0, len(cells), STILL_CELLS))
+        title = said("The same at all these poses; what is as in the run before is not listed again")
+        heads = (said("quantity"), said("value")) * (STILL_CELLS // 2)
+        yield TableBlock(title if before else said("The same at all these poses"), heads, rows, "lr" * (STILL_CELLS // 2))
 
 
 def curve_blocks(

@@ -67,6 +67,8 @@ def verdict_mark(ok: bool | None) -> Mark:
 
 MOST_PLACES = 10
 """Rows of the table of the worst places."""
+CLOSE = 1e-9
+"""Of a column's largest value: its limit is kept where no more is missing."""
 
 
 class JudgedRow(NamedTuple):
@@ -94,7 +96,15 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[object]]
     if own and plain and len(plain) < len(subject.judge.places):  # a table's own column is under the machine's own loads
         judge = subject.machine.judge(plain, subject.judge.acting).lost_allowed()
         answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
+    for name, each in answers.items():  # what is missed by the rounding of the column's own numbers is kept, as verdicts have it
+        if each.ok is False and name in columns and abs(each.value - limit_of(limits[name]).value) <= CLOSE * largest(columns[name]):
+            answers[name] = replace(each, ok=True)
     return [JudgedRow(heading_of(name), each.ok, each, used(each), columns.get(name)) for name, each in answers.items()]
+
+
+def largest(column: Column) -> float:
+    """Return the largest size of a column's finite values."""
+    return float(np.max(np.abs(column.values), initial=0.0, where=np.isfinite(column.values)))
 
 
 def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
@@ -116,7 +126,7 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
             value = each.amount
         elif kind or (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
             value = f"{show(float(each.value), display_unit(kind, 'mm'), 4)}{sign}"
-        rows.append((rule, verdict_mark(ok), value, share, each.situation or "–", places_text(each.strokes, each.units)))
+        rows.append((rule, verdict_mark(ok), value, share, each.situation, places_text(each.strokes, each.units)))
     heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
     if rows:
         yield TableBlock(said("The worst places"), heads, tuple(rows), "llrrmm")

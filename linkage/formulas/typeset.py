@@ -109,9 +109,15 @@ def breakable(box: Box) -> list[Box]:
 
 
 def listed_apart(parts: Sequence[Box]) -> Sequence[Box]:
-    """Return boxes beside each other, with semicolons between them where a language's decimal commas stand among them."""
+    """Return boxes beside each other, with semicolons between them where a language's decimal commas stand among them, or may.
+
+    They may among numbers; an index, such as `lift,1`, has a name.
+    """
     firsts = [each.parts[0] if isinstance(each, BoxRow) and each.parts else each for each in parts]
-    if any(isinstance(each, Sign) and each.kind == "number" and with_decimals(each.text) != each.text for each in firsts):
+    signs = [each for each in firsts if isinstance(each, Sign)]
+    numbers = [each.text for each in signs if each.kind == "number"]
+    may = with_decimals("0.5") != "0.5" and not any(each.kind in ("word", "variable") for each in signs)
+    if numbers and (may or any(with_decimals(each) != each for each in numbers)):
         return [Sign("operator", ";") if each == Sign("operator", ",") else each for each in parts]
     return parts
 

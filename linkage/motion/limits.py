@@ -49,7 +49,7 @@ class StrokeLimits:
 
     def __str__(self) -> str:
         held = said(", with {strokes} held", strokes=", ".join(map(str, self.held))) if self.held else ""
-        start, end = stroke_number(self.start, self.unit, 6), stroke_text(self.end, self.unit, 6)
+        start, end = stroke_number(self.start, self.unit), stroke_text(self.end, self.unit)
         lines = [f"{self.stroke}: {said('declared {low} to {high}', low=start, high=end)}{held}"]
         for each in self.intervals:
             ends = (each.low, each.low_stop), (each.high, each.high_stop)
@@ -69,7 +69,7 @@ class StrokeLimits:
             at = {"stroke": self.stroke, "place": stroke_text(value, self.unit)}
             lines.append("  " + said("dead point of {name} at {stroke} = {place}: its length stands still", name=name, **at))
         for least in self.transmission:
-            given = {"joint": least.joint, "angle": angle_text(least.angle, 4), "place": stroke_text(least.stroke, self.unit, 6)}
+            given = {"joint": least.joint, "angle": angle_text(least.angle, 4), "place": stroke_text(least.stroke, self.unit)}
             lines.append("  " + said("least transmission angle at {joint}: {angle} at {place}", **given))
         return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
 
@@ -208,7 +208,7 @@ class HeldStroke:
     unit: str
 
     def __str__(self) -> str:
-        return f"{self.stroke} = {stroke_text(self.value, self.unit, 6)}"
+        return f"{self.stroke} = {stroke_text(self.value, self.unit)}"
 
 
 @refuses_changes
@@ -309,8 +309,8 @@ def span_text(values: Any, unit: str) -> str:
         return "nothing"
     low, high = float(values.min()), float(values.max())
     if high - low <= STILL:
-        return stroke_text(low, unit, 6)
-    return said("{low} to {high}", low=stroke_number(low, unit, 6), high=stroke_text(high, unit, 6))
+        return stroke_text(low, unit)
+    return said("{low} to {high}", low=stroke_number(low, unit), high=stroke_text(high, unit))
 
 
 MOST_TURNS = 4
@@ -325,8 +325,8 @@ def way_text(values: object, unit: str) -> str:
     turns = moving[1:][steps[moving[1:]] * steps[moving[:-1]] < 0.0]
     if not moving.size or len(turns) >= MOST_TURNS or not np.isfinite(values).all():
         return span_text(values, unit)
-    low = ", ".join(stroke_number(float(values[place]), unit, 6) for place in (0, *turns))
-    return said("{low} to {high}", low=low, high=stroke_text(float(values[-1]), unit, 6))
+    low = ", ".join(stroke_number(float(values[place]), unit) for place in (0, *turns))
+    return said("{low} to {high}", low=low, high=stroke_text(float(values[-1]), unit))
 
 
 NO_LENGTH = 1e-7
@@ -355,14 +355,14 @@ def timed_texts(strokes: Mapping[str, object], units: Mapping[str, str], time: f
     return show(round(time, 6), "s", 4), places_text(strokes, units)
 
 
-def stroke_text(value: float, unit: str, digits: int = 9) -> str:
+def stroke_text(value: float, unit: str) -> str:
     """Return a value of a stroke [m or rad] as it is read: `250 mm`, `90 deg`."""
-    return show(value, shown_stroke_unit(unit), digits)
+    return show(value, shown_stroke_unit(unit))
 
 
-def stroke_number(value: float, unit: str, digits: int = 9) -> str:
+def stroke_number(value: float, unit: str) -> str:
     """Return a value of a stroke [m or rad] as it is read, without its unit: lengths in millimetres, angles in degrees."""
-    return shown_number(value, shown_stroke_unit(unit), digits)
+    return shown_number(value, shown_stroke_unit(unit))
 
 
 def shown_stroke_unit(unit: str, length: str = "mm") -> str:

@@ -34,13 +34,14 @@ from linkage import (
     most,
     pin_forces,
     report,
+    y,
 )
 from linkage.documents import report_document
 from linkage.documents.content import Equality, Illustration, TableBlock
 from linkage.documents.fingerprint import fingerprint
 from linkage.documents.html import html_text
 from linkage.documents.markdown import markdown
-from linkage.documents.outcome import figures
+from linkage.documents.outcome import figures, still_blocks
 from linkage.documents.pdf import pdf
 from linkage.documents.run import ReportSubject
 from linkage.formulas.mathml import mathml
@@ -519,6 +520,32 @@ def test_what_has_decimal_commas_is_listed_by_semicolons():
         assert re.sub("<[^>]*>", "", mathml(pair)) == "(−0,05;65,7°)" and re.sub("<[^>]*>", "", mathml(index)) == "Clift,1"
         assert typst_math(pair).count("\\;") == 1 and '"' not in typst_math(pair).replace('"normal"', "")
     assert re.sub("<[^>]*>", "", mathml(pair)) == "(−0.05,65.7°)"
+
+
+def test_whole_numbers_beside_decimal_commas_are_listed_by_semicolons():
+    whole, turned = boxes(r"\left(0, 4\right)"), boxes(r"\left(\left(1.6, 0.5\right), 90^{\circ}\right)")
+    with language("ru"):
+        assert [re.sub("<[^>]*>", "", mathml(each)) for each in (whole, turned)] == ["(0;4)", "((1,6;0,5);90°)"]
+    assert re.sub("<[^>]*>", "", mathml(whole)) == "(0,4)"
+
+
+def test_a_limit_that_rounding_alone_misses_is_kept():
+    class Spare(Lifter):
+        """An arm at its limit, but for rounding."""
+
+        spare = y("B") - (float(Lifter().at(S=0.0)["B"][1]) + 1e-12)
+
+    verdicts = [dict(report_document(Spare(), limits={"spare": (limit, "least", "below")}).facts)["Verdicts"] for limit in (0.0, 1e-6)]
+    assert verdicts == ["1 of 1 rules kept", "1 of 1 rules kept, 1 limit is exceeded"]
+
+
+def test_many_results_that_stand_still_are_a_table_of_what_is_new():
+    still = {f"a{number}": f"{number}.0" for number in range(22)}
+    (sentence,), (table,) = still_blocks({"a": "1.0 mm"}, {}), still_blocks(still, {})
+    assert sentence == "The same at all these poses: a 1.0 mm." and len(table.rows) == 8 and table.rows[7] == ("a21", "21.0", *[""] * 4)
+    (further,) = still_blocks(still, {**still, "a3": "4.0"})
+    assert further.rows == (("a3", "3.0", "", "", "", ""),) and "before" in further.caption
+    assert not [*still_blocks(still, still)]
 
 
 def test_latex_is_read_into_boxes_that_break_before_signs():

@@ -129,7 +129,7 @@ def test_what_was_found_clear_says_nothing_of_what_was_not_looked_at():
 def test_a_motion_tells_of_what_it_did_not_refuse():
     clear, gap = FourBar().sweep(5), FourBar(CB=1.999).sweep(5, unreachable="nan")
     assert repr(clear).endswith("all reached>") and clear.interruptions == ()
-    assert repr(gap).endswith("4 of 5 reached, interrupted: B out of reach from phi = 177.135056 to 182.864944 deg>")
+    assert repr(gap).endswith("4 of 5 reached, interrupted: B out of reach from phi = 177.135 to 182.865 deg>")
     crossing = FourBar(CB=2.0).sweep(4, unreachable="nan")
     assert repr(crossing).endswith("all reached, interrupted: a change point of B at phi = 180 deg>")
     batch = FourBar(CB=np.array([2.5, 2.6])).sweep(3)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..errors import DefinitionError
-from ..quantities import FRAME_AXES, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, source_text
+from ..quantities import FRAME_AXES, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity
 from ..vectors import Vec
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Position, Step
@@ -58,6 +58,3 @@ class Crank(Step):
         arm = Turn(Axis(self.axes), -self.angle if self.axes.mirrored else self.angle, length=self.PX)
         name = self.word(self.P, self.X)
         return Assignment(name, self.PX), Assignment(name, arm), Assignment(self.X, Offset(self.P, arm))
-
-    def arguments(self) -> list[str]:
-        return [*super().arguments(), f"angle={source_text(self.angle, 0, 'angle')}"]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Self
 
-from ..quantities import Axes, Operand, Quantity, Reference, Where, distance
+from ..quantities import Axes, Where, distance
 from ..vectors import Scalar, Side, Vec
 from .primitives import CosineAngle, triangle, turned_from_base
-from .step import UNBOUND, Assignment, Position, Step
+from .step import Assignment, FromTwo
 
 
-class Dyad(Step):
+class Dyad(FromTwo):
     """The joint of two links that hang from P and Q (RRR dyad): `B = Dyad(A, O, AB=0.5, OB=0.3, side=RIGHT)`.
 
     Parameters
@@ -23,7 +23,7 @@ class Dyad(Step):
         Instead of the side, its place (x, y) in a sketch [m].
     at : tuple of float, optional
         Its place (x, y) in a drawing [m], from which lengths are measured that are not given.
-    **lengths : float or quantity
+    **labels : float or quantity
         The distances from P and from Q by their labels [m], such as `AB=0.5`. A length that follows a stroke is a cylinder.
 
     Notes
@@ -31,22 +31,12 @@ class Dyad(Step):
     Source: Artobolevsky, class II group of the first kind.
     """
 
-    P: str
-    Q: str
-    PX: Quantity = UNBOUND
-    QX: Quantity = UNBOUND
     from_drawing = "distances"
     arms = ("P", "Q")
     closes = True
     chooses = "two circles meet in two points"
     orientation = 1.0
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
-
-    def __init__(
-        self, P: Reference, Q: Reference, *, side: Side | str | None = None,
-        near: Position | None = None, at: Position | None = None, **lengths: Operand,
-    ) -> None:
-        super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
 
     def in_axes(self, axes: Axes) -> Self:
         return self.renewed(side=Side(-self.side)) if axes.mirrored and self.side is not None else self

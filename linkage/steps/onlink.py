@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Self
 
 from ..errors import DefinitionError, ensure
-from ..quantities import Axes, Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance
+from ..quantities import Axes, Driven, Joint, JointSide, Number, Quantity, Turning, Where, distance
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
 from .primitives import CosineAngle, Vector, triangle, turned_from_base
-from .step import UNBOUND, Assignment, Position, Step
+from .step import UNBOUND, Assignment, FromTwo
 
 
-class OnLink(Step):
+class OnLink(FromTwo):
     """A point X rigidly on the body of P and Q: `C = OnLink(O, B, OC=0.36, BOC=0.4)`.
 
     Parameters
@@ -31,21 +31,11 @@ class OnLink(Step):
         towards Q.
     """
 
-    P: str
-    Q: str
-    PX: Quantity = UNBOUND
-    QX: Quantity = UNBOUND
     QPX: Quantity = UNBOUND
     is_mirrored: bool = False
     """Whether it stands in a part that is mirrored, so that its side and the sense of its angle are the other ones."""
     from_drawing = "angle"
     expects = (("P", "point"), ("Q", "point"))
-
-    def __init__(
-        self, P: Reference, Q: Reference, *, side: Side | str | None = None,
-        near: Position | None = None, at: Position | None = None, **labels: Operand,
-    ) -> None:
-        super().__init__(P, Q, labels=labels, side=side, near=near, at=at)
 
     def slots(self) -> tuple[Slot, ...]:
         return Slot("PX", (self.P, self.X)), Slot("QX", (self.Q, self.X)), Slot("QPX", (self.Q, self.P, self.X))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..quantities import Joint, JointSide, Operand, Quantity, Reference, Where, guided, quantity, source_text
+from ..quantities import Joint, JointSide, Operand, Quantity, Reference, Where, guided, quantity
 from ..vectors import Line, Scalar, Side, Vec
 from .step import UNBOUND, Position, Step, angle_given
 
@@ -117,10 +117,6 @@ class PinSlotDyad(Step):
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         gap = abs(where.value(self.offset)) - (where.at(self.Q) - where.at(self.P)).length()
         return f"the slot's offset is larger than the distance {self.P}{self.Q}", gap
-
-    def arguments(self) -> list[str]:
-        given = [] if self.offset.constant == 0.0 else [f"offset={source_text(self.offset)}"]
-        return [*super().arguments(), *given]
 
     def joints(self) -> tuple[Joint, ...]:
         on, by, still = JointSide((self.Q,), "runner"), JointSide((self.P, self.X)), ((self.offset, f"{self.sentence()}: its offset"),)
@@ -244,6 +240,3 @@ class YokeDyad(Step):
             The line.
         """
         return Line(where.at(self.X), where.line(self.guide).direction.turned(*where.turn(self.angle)))
-
-    def arguments(self) -> list[str]:
-        return [*super().arguments(), f"angle={source_text(self.angle, 0, 'angle')}"]

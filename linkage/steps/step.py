@@ -16,6 +16,7 @@ import numpy.typing as npt
 from ..errors import DefinitionError, cited, did_you_mean, ensure, two_of
 from ..frozen import refuses_changes
 from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
+from ..quantities.quantity import source_text
 from ..units import deg, require_measure
 from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, Spoken, match, relabelled, written_labels
@@ -335,18 +336,37 @@ class Step(Point):
             words.append(f"side={self.side}")
         if self.near is not None:
             words.append(f"near=({self.near[0]!r}, {self.near[1]!r})")
-        return words
+        given = ((name, getattr(self, name), "angle" if name in self.radians else "") for name in self.further)
+        return words + [f"{name}={source_text(value, 0, kind)}" for name, value, kind in given if kind or value.constant != 0.0]
 
     def __str__(self) -> str:
         return f"{type(self).__name__}({', '.join(self.arguments())})"
 
     __repr__ = __str__
 
+
+class FromTwo(Step):
+    """The base of steps that hang a point from two others, P and Q, by its distances from them."""
+
+    P: str
+    Q: str
+    PX: Quantity = UNBOUND
+    QX: Quantity = UNBOUND
+
+    def __init__(
+        self, P: Reference, Q: Reference, *, side: Side | str | None = None,
+        near: Position | None = None, at: Position | None = None, **labels: Operand,
+    ) -> None:
+        super().__init__(P, Q, labels=labels, side=side, near=near, at=at)
+
+    @abstractmethod
+    def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
+        """Return the sides of its triangle, as labelled lengths [m]; none where it has no third one."""
+
     def triangle_sides(self, where: Where, base: Scalar) -> tuple[tuple[str, Scalar], ...]:
         """Return the sides of the triangle P Q X, as labelled lengths [m]; `base` is that of P Q."""
-        P, Q, X = (getattr(self, letter) for letter in "PQX")
-        lengths = (where.value(getattr(self, attribute)) for attribute in ("PX", "QX"))
-        return tuple(zip((self.word(P, Q), self.word(P, X), self.word(Q, X)), (base, *lengths), strict=True))
+        names = self.word(self.P, self.Q), self.word(self.P, self.X), self.word(self.Q, self.X)
+        return tuple(zip(names, (base, where.value(self.PX), where.value(self.QX)), strict=True))
 
 
 def angle_given(given: Operand, what: str) -> Quantity:

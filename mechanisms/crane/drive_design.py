@@ -211,11 +211,9 @@ def design_boom_drive(
     pin, share = CLEARANCES[clearance], LIFTING.given / LIFTING.asked
     least_of = {"area": integral(LIFTING.surplus), "ratio": most(share), "difference": most(LIFTING.surplus)}
 
-    numbers = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
-
     def drive(bore: float, rod: float) -> BoomDrive:
         return BoomDrive(
-            **cylinders.dimensions(bore, rod), **numbers, r_1=pin(duty.b_0, bore), r_4=pin(duty.b_c, bore),
+            **cylinders.dimensions(bore, rod), **duty.asked_of(BoomDrive), r_1=pin(duty.b_0, bore), r_4=pin(duty.b_c, bore),
             S=0.8 * cylinders.longest * bore, r_2=0.85 * duty.h_0, r_3=max(0.14 * duty.l_c, r_3_min),
         )  # fmt: skip
 
@@ -430,11 +428,10 @@ def design_arm_drive(
 def arm_drive(duty: DriveDuty, cylinders: DriveCylinders, rules: ArmRules, bore: float, rod: float, scheme: str = "a") -> DrivenArm:
     """Return an arm drive for a duty, its lengths those of the shipped one: the start of a search."""
     machine, _ = SCHEMES[scheme]
-    numbers = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
     own = () if issubclass(machine, DirectArmDrive) else ("r_6", "delta", "crank") if scheme == "b" else ("r_6", "delta")
     given = {name: getattr(rules, name) for name in ("eyes", *own)}
     S = min(0.66, 0.9 * cylinders.longest * 0.1) * 10.0 * bore
-    return machine(**cylinders.dimensions(bore, rod), **numbers, **given, S=S)
+    return machine(**cylinders.dimensions(bore, rod), **duty.asked_of(machine), **given, S=S)
 
 
 def bounds_checked(

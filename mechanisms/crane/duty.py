@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from hydraulics import CylinderSize
 from hydraulics.inputs import efficient, in_pascals, not_negative, one_number, positive
-from linkage import DefinitionError, MPa, deg, drive_force, kN, mm
+from linkage import DefinitionError, Mechanism, MPa, deg, drive_force, kN, mm
 from linkage.errors import ensure
 from linkage.numeric.line import Index, highest
 from linkage.plan import Mask
@@ -288,6 +288,21 @@ class DriveDuty:
         K_B = GRAVITY * (AT_BOOM * W_c + AT_DRIVE * OF_DRIVE * W) * l_c + (JOINT + arm + Q) * l_c
         K_A, K_A1 = ((Q + AT_ARM * arm) * reach for reach in (l_p + l_t, l_p))
         return cls(l_c=l_c, l_p=l_p, l_t=l_t, K_B=K_B, K_A=K_A, K_A1=K_A1, **others)
+
+    def asked_of(self, drive: type[Mechanism]) -> dict[str, float]:
+        """Return those of its numbers that a drive has as dimensions: `BoomDrive(**duty.asked_of(BoomDrive))`.
+
+        Parameters
+        ----------
+        drive : type of Mechanism
+            The drive's class.
+
+        Returns
+        -------
+        dict of str to float
+            The dimensions [SI].
+        """
+        return {name: value for name, value in vars(self).items() if name in drive.plan.defaults}
 
 
 FAITHFUL = 1e-6

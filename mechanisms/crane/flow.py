@@ -233,9 +233,7 @@ def boom_drive_of(crane: Crane) -> BoomDrive:
     BoomDrive
         The drive.
     """
-    duty = duty_of(crane)
-    asked = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
-    return BoomDrive(**asked, **own_numbers(crane, names_of("boom", "lift", 4)))
+    return BoomDrive(**duty_of(crane).asked_of(BoomDrive), **own_numbers(crane, names_of("boom", "lift", 4)))
 
 
 def arm_drive_of(crane: Crane) -> DrivenArm:
@@ -253,7 +251,7 @@ def arm_drive_of(crane: Crane) -> DrivenArm:
     """
     duty = duty_of(crane)
     drive, count = next((drive, count) for drive, made, count in CRANES if isinstance(crane, made))
-    asked = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
+    asked = duty.asked_of(drive)
     if issubclass(drive, ArmDrive):
         asked |= {"alpha_20": float(crane["lug"]) - 180 * deg + duty.psi_0, "delta": float(crane["bend"])}
     return drive(**asked, **own_numbers(crane, names_of("arm", "fold", count)))

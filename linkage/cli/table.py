@@ -22,7 +22,18 @@ from ..language import heading_of, said
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, judged_poses, limits_over
-from ..reports import Run, dagger_words, force_columns, friction_of_columns, in_case_words, is_loaded, run_words, text_table, write_csv
+from ..reports import (
+    Run,
+    dagger_words,
+    force_columns,
+    friction_of_columns,
+    in_case_words,
+    is_loaded,
+    joined_tables,
+    run_words,
+    text_table,
+    write_csv,
+)
 from ..statics import PinForces, max_table, pin_forces, table_text
 from . import settings
 from .command import COLUMNS, CSV, EVERY, Command, machine_options, option, pose_options, progress_bar, repeatable
@@ -113,13 +124,8 @@ def write_tables(tables: Sequence[Table], file: str | None) -> None:
         return
     if file != "-":  # what a file of numbers does not say
         print(*(f"{heading}\n\n" for heading, _, _ in tables if heading), sep="", end="")
-    if len(tables) == 1:
-        write_table(tables[0][1], file)
-    else:
-        first = tables[0][1]
-        joined = [replace(each, values=np.concatenate([np.ravel(one[k].values) for _, one, _ in tables])) for k, each in enumerate(first)]
-        labels = [heading.partition(":")[0] for heading, columns, _ in tables for _ in range(max(np.size(each.values) for each in columns))]
-        write_table(joined, file, labels)
+    columns, labels = joined_tables([(heading.partition(":")[0], columns) for heading, columns, _ in tables])
+    write_table(columns, file, labels)
 
 
 def write_table(columns: Sequence[Column], file: str | None, labels: Sequence[str] = (), outside: Sequence[bool] = ()) -> None:

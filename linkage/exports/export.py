@@ -16,12 +16,27 @@ import numpy as np
 from .. import plugins
 from ..disk import Place, check_name, check_place, replacing
 from ..errors import DefinitionError, ensure, instance_of, known_name, require, require_one_design, require_type
+from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism, played_along, require_mechanism
-from ..motion import Column, Motion, columns_of
+from ..motion import Column, Motion, Over, columns_of
 from ..pictures.strokes import pose_words
 from ..plugins import Plugins
 from ..quantities import as_mapping, numbers_in
-from ..reports import NOTHING, Run, first_stroke, one_run, rate_columns, reached_motion, results, runs_of, stroke_middles, write_csv
+from ..reports import (
+    NOTHING,
+    Run,
+    first_stroke,
+    joined_tables,
+    motion_over,
+    one_run,
+    rate_columns,
+    reached_motion,
+    results,
+    run_words,
+    runs_of,
+    stroke_middles,
+    write_csv,
+)
 from ..reports.runs import stroke_grid
 from ..sketch import sketch_of, sketch_text
 from ..study import WorkingField
@@ -107,7 +122,7 @@ class Workbook(Exporter):
 
 
 class Csv(Exporter):
-    """A table of results: of a machine its own, over its strokes; of a motion its strokes, points and outputs, or `columns`."""
+    """A table of results: of a machine its own, along its `Over`s or over its strokes; of a motion its own columns, or `columns`."""
 
     suffix = ".csv"
     help = "a table in full precision"
@@ -115,8 +130,12 @@ class Csv(Exporter):
     batches = True
 
     def content(self, job: ExportJob) -> bytes:
-        motion, table = self.poses(job), list(job.columns)
-        if not table and isinstance(job.what, Mechanism):
+        motion, table, labels = self.poses(job), list(job.columns), list[str]()
+        if runs := declared_motions(job):
+            tables = [(run_words(job.machine, run), results(job.machine, each, run.case or PLAIN_CASE)) for run, each in runs]
+            joined, labels = joined_tables(tables)
+            table = [*joined]
+        elif not table and isinstance(job.what, Mechanism):
             table = results(job.what, motion)
         elif not table:  # in time with the strokes' rates and accelerations, of one design over an `Over` with its results
             table = columns_of(motion)
@@ -127,11 +146,26 @@ class Csv(Exporter):
                     table += results(played_along(motion, None)[0], motion)
             table = [*{each.name: each for each in table}.values()]
         stream = io.StringIO(newline="")
-        write_csv(table, stream)
+        write_csv(table, stream, labels=labels)
         return stream.getvalue().encode("utf-8")
 
     def poses(self, job: ExportJob) -> Motion:
+        runs = [motion for _, motion in declared_motions(job)]
+        if runs:
+            return next((motion for motion in runs if not motion.reached.all()), runs[0])
         return job.what if isinstance(job.what, Motion) else over_strokes(job.what, job.at, job.count)
+
+
+def declared_motions(job: ExportJob) -> list[tuple[Run, Motion]]:
+    """Return the runs along the `Over`s of a design, each with its poses; none of a motion, of strokes that are given, of a batch."""
+    machine, shares = job.what, np.linspace(0.0, 1.0, job.count)
+    if not isinstance(machine, Mechanism) or job.at or not machine.plan.of_kind(Over) or any(map(np.ndim, machine.dimensions.values())):
+        return []
+    found = list[tuple[Run, Motion]]()
+    for run in runs_of(machine):
+        motion = motion_over(machine, run, shares) if run.instants is not None else run.divided(job.count) if run.is_curve else run.poses
+        found.append((run, reached_motion(machine, motion)))
+    return [(replace(run, title=run.title or motion.over.words(motion)), motion) for run, motion in found] if len(found) > 1 else found
 
 
 class TrueSize(Exporter):
@@ -218,9 +252,10 @@ def export(
     * .xlsx (extra `xlsx`) is a workbook of live formulas, the numbered equations one after the other at `count` poses of a stroke. A
       dimension typed over changes all of it. `at=dict(tilt=0.1)` holds a stroke, `at=dict(S=(0.1, 0.2))` says where one runs. What no
       formula gives (pins found by iteration) is a number there, marked so.
-    * .csv is the table of results in full precision. Of a machine it goes over its strokes, `count` poses each of those that `at` does not
-      give. Of a motion it has its poses, with its points and outputs or the `columns` given; over an `Over` the results too, in a load
-      case that occurs there, over time also the rates and the accelerations of the strokes.
+    * .csv is the table of results in full precision. Of a machine it goes along its `Over`s; where it declares none, or `at` is given, over
+      its strokes, `count` poses each of those that `at` does not give. Of a motion it has its poses, with its points and outputs or the
+      `columns` given; over an `Over` the results too, in a load case that occurs there, over time also the rates and the accelerations of
+      the strokes.
     * .dxf (extra `cad`) and .svg are a drawing in millimetres, true size, by layers. Of a machine it has a pose each of the strokes that
       `at` gives (default: the start of the first stroke), of a motion all its poses. `trace` names points whose paths are drawn.
     * .linkage2 and .txt are the machine as a drawing in Linkage and PMKS, `format="points"` a table of points and links (.csv).

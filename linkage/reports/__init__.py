@@ -31,7 +31,7 @@ from .runs import (
     runs_of,
     stroke_middles,
 )
-from .table import dagger_words, text_table, write_csv
+from .table import dagger_words, joined_tables, text_table, write_csv
 from .values import design_rows, dimension_unit, stroke_rows
 
 __all__ = ["results", "text_table", "write_csv"]

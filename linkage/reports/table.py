@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from math import floor, isfinite, log10
 from typing import TextIO
 
@@ -103,6 +104,15 @@ CHUNK = 10_000
 
 FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 """What a spreadsheet's formula begins with: an apostrophe goes before a heading that begins so."""
+
+
+def joined_tables(tables: Sequence[tuple[str, Sequence[Column]]]) -> tuple[Sequence[Column], list[str]]:
+    """Return tables of the same columns, each below a heading, as one, and the heading of each row; of one table no headings."""
+    first = tables[0][1]
+    if len(tables) == 1:
+        return first, []
+    joined = [replace(each, values=np.concatenate([np.ravel(one[k].values) for _, one in tables])) for k, each in enumerate(first)]
+    return joined, [heading for heading, columns in tables for _ in range(max(np.size(each.values) for each in columns))]
 
 
 def write_csv(

@@ -35,6 +35,7 @@ from linkage import (
     export,
 )
 from linkage.cli import main
+from linkage.cli.machines import find
 from linkage.exports.calculation import Calculation, live_results
 from linkage.exports.drawing import Circle, Lettering, Measured, pose_parts
 from linkage.exports.workbook import cell_names, formula, from_si, to_si
@@ -380,10 +381,25 @@ def test_names_that_a_spreadsheet_takes():
 # -- tables ------------------------------------------------------------------------------------------------
 
 
+TWO_WAYS = """from linkage import *
+class Arm(Mechanism):
+    a, b = Stroke(0.0, 1.0), Stroke(0.0, 1.0)
+    O = Ground(0.0, 0.0)
+    A = Crank(O, OA=1.0, angle=a)
+    B = Crank(A, AB=1.0, angle=b)
+    load = Weight(B, mass=100)
+    out, back = Over.path(a=[0.0, 1.0], b=[0.0, 0.5]), Over(a=0.2)
+"""
+
+
 def test_a_table_is_that_of_the_command(tmp_path):
-    path = export(ThreePointHitch(), tmp_path / "own.csv", count=11)
-    assert main(["table", "three_point_hitch", "--csv", str(tmp_path / "command.csv")]) == 0
-    assert path.read_bytes() == (tmp_path / "command.csv").read_bytes()
+    (tmp_path / "arm.py").write_text(TWO_WAYS)
+    for name, machine in (("three_point_hitch", ThreePointHitch), (str(tmp_path / "arm.py"), find(str(tmp_path / "arm.py")))):
+        path = export(machine(), tmp_path / "own.csv", count=11)
+        assert main(["table", name, "--csv", str(tmp_path / "command.csv")]) == 0
+        assert path.read_bytes() == (tmp_path / "command.csv").read_bytes()
+    assert path.read_text().startswith("run,") and len(path.read_text().splitlines()) == 23
+    assert len(export(machine(), path, at={"a": 0.2}, count=5).read_text().splitlines()) == 6
 
 
 def test_a_motion_as_a_table_keeps_all_digits(tmp_path):

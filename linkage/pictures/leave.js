@@ -14,15 +14,15 @@ function settings() {
 /* A number as it is copied: to what matters; a pressure or an angle in the unit that is shown, as `measured` writes it, of a point both. */
 const figure = (value) => String(Number(value.toPrecision(7)));
 function figures([name, given], measured) {
-  const { unit, factor } = dims[byName.get(name)] ?? {};
-  return /^(bar|MPa|deg)$/.test(unit) ? measured(figure(given / factor), unit) : given.length ? given.map(figure) : figure(given);
+  const { unit = "", factor } = dims[byName.get(name)] ?? {}, typeable = unit.replace("\u00b2", "2");
+  return /^(bar|MPa|psi|kgf\/cm2|deg)$/.test(typeable) ? measured(figure(given / factor), typeable) : given.length ? given.map(figure) : figure(given);
 }
 function asPython() {
-  const units = new Set(), inUnit = (number, unit) => { units.add(unit); return `${number} * ${unit}`; }, isPlain = ([name]) => !name.includes(".");
+  const units = new Set(), inUnit = (number, shown) => { const unit = shown.replace("/", "_"); units.add(unit); return `${number} * ${unit}`; }, isPlain = ([name]) => !name.includes(".");
   const value = (each) => { const text = figures(each, inUnit); return text.map ? `(${text.join(", ")})` : text; }, found = settings();
   const dotted = found.filter((each) => !isPlain(each)).map((each) => `"${each[0]}": ${value(each)}`);
   const made = [...found.filter(isPlain).map((each) => `${each[0]}=${value(each)}`), ...(dotted.length ? [`**{${dotted.join(", ")}}`] : [])].join(", ");
-  const from = [units.size ? `from linkage import ${[...units].join(", ")}\n` : "", data.module ? `from ${data.module} import ${data.class}\n` : ""].join("");
+  const from = [units.size ? `from linkage.units import ${[...units].join(", ")}\n` : "", data.module ? `from ${data.module} import ${data.class}\n` : ""].join("");
   return `${from}${from && "\n"}machine = ${data.class}(${made})${found.length ? "" : "  # unchanged"}\n`;
 }
 const asToml = () => {

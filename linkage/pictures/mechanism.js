@@ -38,7 +38,7 @@ const LENGTHS = { mm: 1e-3, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048 }, MEASURES =
 function typed(text, { factor, unit }, plainly = factor) {
   const kinds = data.measures, alike = Object.keys(kinds ?? {}).filter((each) => kinds[unit] && kinds[each][1] === kinds[unit][1]).map((each) => [each, kinds[each][0]]);
   const units = { ...MEASURES.find((each) => unit in each), ...Object.fromEntries(alike), [unit]: factor, "": plainly }, plain = text.trim().replace(/\u2212/g, "-").replace(/(\d)\s(?=\d{3})/g, "$1");
-  const [, number, name] = /^([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)\s*(\D*)$/i.exec(plain) ?? [], known = Object.keys(units).find((each) => each === name || signed(each) === name);
+  const [, number, name] = /^([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[-+]?\d+)?)\s*(\D.*|)$/i.exec(plain) ?? [], raised = name?.replace("_", "/").replace("2", "\u00b2").replace("3", "\u00b3"), known = Object.keys(units).find((each) => [name, raised].includes(each) || signed(each) === name);
   return known === undefined ? NaN : Number((Number(number.replace(",", ".")) * units[known]).toPrecision(14));
 }
 /* Say all that stands in the page in the language chosen. */

@@ -62,7 +62,7 @@ from linkage.plan.trace import Trace
 from linkage.quantities import name_of
 from linkage.reports import results
 from linkage.reports.live_columns import values_together
-from linkage.units import MPa, bar, mm, unit_system
+from linkage.units import MPa, bar, kgf_cm2, mm, unit_system
 from mechanisms.at_work.forwarder import LoadingForwarder
 from mechanisms.at_work.one_pump import RegenerativePress
 from mechanisms.at_work.telehandler import Telehandler
@@ -744,6 +744,24 @@ def test_a_design_leaves_as_text_that_python_and_the_page_read(chromium, deliver
             design = again.state["design"]
             assert {name: design[name] for name in given} == pytest.approx(given, rel=1e-13)
             assert again.said == []
+
+
+@pytest.mark.slow
+def test_a_pressure_leaves_in_the_unit_that_is_shown(chromium, written):
+    with Shown(chromium, written(HeaderBalancer())) as shown:
+        shown("(design) => hydrolinkage.set({ design })", {"charge": 33 * kgf_cm2})
+        for form, text in zip(FORMS, ("charge=33 * kgf_cm2", 'charge = "33 kgf/cm2"', "--set charge=33kgf/cm2"), strict=True):
+            shown.tab.locator(f"#as-{form}").click()
+            told = shown.tab.locator("#text").input_value()
+            assert text in told
+            if form == "python":
+                exec(told, names := {})
+            shown.tab.locator("#reset").click()
+            shown.tab.locator("#text").fill(told)
+            shown.tab.locator("#take").click()
+            shown.settle()
+            assert shown.state["design"]["charge"] == pytest.approx(33 * kgf_cm2, rel=1e-13) and shown.said == []
+    assert names["machine"]["charge"] == 33 * kgf_cm2
 
 
 class Stacker(FourBar):

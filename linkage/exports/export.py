@@ -157,7 +157,7 @@ class Csv(Exporter):
 
 
 def declared_motions(job: ExportJob) -> list[tuple[Run, Motion]]:
-    """Return the runs along the `Over`s of a design, each with its poses; none of a motion, of strokes that are given, of a batch."""
+    """Return the runs along the `Over`s of a design, each with its poses. Motions, strokes that are given and batches have no such runs."""
     machine, shares = job.what, np.linspace(0.0, 1.0, job.count)
     if not isinstance(machine, Mechanism) or job.at or not machine.plan.of_kind(Over) or any(map(np.ndim, machine.dimensions.values())):
         return []

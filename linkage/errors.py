@@ -232,7 +232,8 @@ def is_yes(name: str, given: object) -> bool:
 FIELD_WORDS = {
     "diameter": "bore rod", "piston": "bore", "piston_diameter": "bore", "rod_diameter": "rod", "travel": "stroke", "weight": "mass",
     "force": "thrust drive_force mass", "load": "thrust mass", "volume": "flow", "delivery": "flow", "displacement": "stroke flow",
-    "length": "distance stroke", "torque": "moment drive_force", "rate": "stiffness flow", "leverage": "ratio", "safety": "reserve",
+    "length": "distance stroke", "pump": "pressure", "supply": "pressure",
+    "torque": "moment drive_force", "rate": "stiffness flow", "leverage": "ratio", "safety": "reserve",
 }  # fmt: skip
 """Words of the field for what has another name here."""
 

@@ -283,7 +283,8 @@ class FileEntry:
                     words, several = self._kind_words(), given[self.word]
                     what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
                     fits = is_listed(several) and len(several) == len(self.built_from)
-                    require(fits, "", several, f"is not {what}, such as {self._parents()}")
+                    what = f"is not {what}, such as {self._parents()}" if words else "is not []; it is built from no other member"
+                    require(fits, "", several, what)
                     parents = [argument.kind.read(each, names) for argument, each in zip(self.built_from, several, strict=True)]
         else:
             under_keys = read_table(given, names, self.built_from, mistakes)

@@ -240,6 +240,11 @@ VESSEL = {"volume": "4 l", "charge": "50 bar"}
         (changed("ram", Cylinder=["A", "X"]), r"hydraulics\.ram\.Cylinder: Point 'X' is unknown"),
         (changed("pump", LiftCircuit="rum"), r"hydraulics\.pump\.LiftCircuit: Load 'rum' is unknown.* Did you mean ram"),
         (changed("pump", LiftCircuit="load"), r"hydraulics\.pump: Carried\.pump: Weight\(G, mass=600\) is no Cylinder"),
+        (changed("pump", pump="supply"), r"hydraulics\.pump\.pump: is not a key of it\. Did you mean pressure\?"),
+        (
+            to_dict(Carried) | {"hydraulics": {"supply": {"Pump": "ram", "pressure": "200 bar"}}},
+            r"hydraulics\.supply\.Pump: 'ram' is not \[\]; it is built from no other member",
+        ),
         (changed("pump", flow=-1), r"hydraulics\.pump: .*flow=-1 is negative"),
         (changed("fixed", accumulators=[]), r"hydraulics\.fixed: The accumulator block is empty"),
         (changed("fixed", accumulators=3), r"hydraulics\.fixed\.accumulators: 3 is not a list"),

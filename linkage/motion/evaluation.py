@@ -97,6 +97,11 @@ class CloseLook(NamedTuple):
     broken: Mask
     worst: dict[int, Conditioning]
 
+    def is_clear(self, request: int) -> bool:
+        """Return whether a request, by its number, has values at all poses, none of them doubtful."""
+        masks = (self.refused, self.doubtful, self.missing)
+        return not (self.broken.any() or any(mask[request].any() for mask in masks))
+
     def in_block(self, band: slice, part: slice) -> CloseLook:
         """Return the same of a part of the grid, written into this one."""
         refused, doubtful, missing, empty = (mask[:, band, part] for mask in (self.refused, self.doubtful, self.missing, self.empty))
@@ -158,11 +163,11 @@ class Evaluation:
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block, here = place[:, band, part], look.in_block(band, part)
             _, height, width = block.shape
-            unplaced, unlike, near, here.empty[...] = guard_masks(plan, self.requests, inputs, (height, width), self.options)
-            near[[number for number in range(len(near)) if number not in self.counting]] = False
-            for number, rows in enumerate(self.program.parts):
-                block[rows, here.empty[number]] = 0.0
-            broken = np.asarray(unlike[[*self.counting]].any(axis=0))
+            masks = guard_masks(plan, self.requests, inputs, (height, width), [*self.counting], self.options)
+            unplaced, unlike, near, here.empty[...] = masks
+            for number in self.counting:
+                block[self.program.parts[number], here.empty[number]] = 0.0
+            broken = np.asarray(unlike.any(axis=0))
             bad = broken | unplaced | near.any(axis=0) | ~np.isfinite(block[self.rows]).all(axis=0)
             bad &= True if among is None else among[band, part]
             if bad.any():
@@ -172,8 +177,8 @@ class Evaluation:
                 at_bad = {name: np.broadcast_to(value, bad.shape)[bad] if value.ndim else value for name, value in full.items()}
                 here.broken[...] = broken & bad
                 self._put_right(block, bad, at_bad, near[:, bad], here)
-            for number, rows in enumerate(self.program.parts):
-                block[rows, here.empty[number]] = np.nan
+            for number in self.counting:
+                block[self.program.parts[number], here.empty[number]] = np.nan
         return look
 
     @np.errstate(all="ignore")
@@ -226,19 +231,23 @@ def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[Kernel, list[list
 
 
 def guard_masks(
-    plan: Plan, requests: tuple[Request, ...], inputs: Mapping[str, Any], size: tuple[int, int], way: RunOptions = QUICKEST
+    plan: Plan, what: Sequence[Request], inputs: Mapping[str, Any], size: tuple[int, int], among: Sequence[int], way: RunOptions = QUICKEST
 ) -> tuple[Mask, Mask, Mask, Mask]:
-    """Return the mask (m, n) of poses where there is no place, and masks (requests, m, n).
+    """Return the mask (m, n) of poses where there is no place, and masks (requests, m, n), of some `among` the requests.
 
     They tell where an assumption of each request does not hold, where it has to be looked at closely, and where it has no value, which
     is no error.
     """
-    kernel, *rows, placeable = of_all("guards", plan, requests, watch_of)
+    kernel, *rows, placeable = of_all("guards", plan, what, watch_of)
     with np.errstate(invalid="ignore"):
         above = np.broadcast_to(kernel(inputs, size=size, way=way).values, (len(kernel.plan.outputs), *size)) > 0.0
-    far = above[: len(requests)]
-    near = ~far & ~keeps_digits(plan, requests, inputs, ~far)
-    unlike, empty = (np.array([~above[own].all(axis=0) for own in each_of]) for each_of in rows)
+    unlike, near, empty = np.zeros((3, len(what), *size), bool)
+    near[among] = ~above[among]
+    near &= ~keeps_digits(plan, what, inputs, near)
+    for mask, own in zip((unlike, empty), rows, strict=True):
+        for number in among:
+            if own[number]:
+                mask[number] = ~above[own[number]].all(axis=0)
     return np.asarray(~above[placeable].all(axis=0)), unlike, near, empty
 
 
@@ -268,8 +277,8 @@ def some_inputs(inputs: Mapping[str, FloatArray], mask: Mask) -> dict[str, Float
 # Near singular poses.
 
 
-DIGITS = 3e-12
-"""The relative error that a coarse look finds, below which rounding surely leaves nine digits: such a look errs by less than 100."""
+DIGITS = 1e-10
+"""The relative error that a coarse look finds, below which a result is not doubtful: such a look errs by less than 1000."""
 MANY = 1.0 / 64
 """Of so many poses at least, all are looked at coarsely by a compiled program; of fewer each is looked at closely."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from dataclasses import replace
 from functools import cached_property, reduce
@@ -935,6 +936,15 @@ class Motion(Shown):
             return values[index : index + 2]
         return values if isinstance(member, (Arrow, Point)) else values[0]
 
+    def _work_out(self, names: Iterable[str]) -> None:
+        """Work out quantities by name in one pass, kept; each by itself where it is refused or looked at closely."""
+        requests = tuple(Value(self.plan.members[name]) for name in names)
+        with suppress(DefinitionError, SingularError):
+            values, look = Evaluation(self._grid, requests).evaluate(among=self.reached.reshape(self._grid.size))
+            for place, (what, own) in enumerate(zip(requests, values, strict=True) if self._stroke_shape else ()):
+                if look is None or look.is_clear(place):
+                    self._values[what.key], self._watched[what.key] = read_only(own[None]), False
+
     def _numeric(self, what: Value, step: float | None) -> FloatArray:
         member, stroke, order = what.member, what.strokes[0], what.order
 
@@ -986,13 +996,22 @@ class Motion(Shown):
     def _refused_near(self, what: Request, words: str, are_places: bool = False) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked."""
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
-        unplaced, _, close, _ = guard_masks(self.plan, (what,), self._grid.flat, self._grid.size)
-        near = np.asarray(unplaced | close[0]).reshape(self.shape) & self.reached
+        near = self._guards(what).reshape(self.shape) & self.reached
         if near.any():
             found = self._near(what, near)
             refused[near], doubtful[near] = found.refused, found.doubtful
             self._report(words, refused, doubtful, lambda mask: found.masked(mask[near]), are_places)
         return refused
+
+    def _guards(self, what: Request) -> Mask:
+        """Return the mask (m, n) of poses where a request is looked at closely; ratios of all points come in one pass, kept."""
+        plan, place, asked = self.plan, 0, tuple[Request, ...]((what,))
+        if isinstance(what, Value) and what.along and what.member.name in plan.moving:
+            asked = tuple(Value(plan.points[name], what.along) for name in plan.moving)
+            place = plan.moving.index(what.member.name)
+        key, every = ("guards", *(each.key for each in asked)), range(len(asked))
+        unplaced, _, close, _ = self._once(key, lambda: guard_masks(plan, asked, self._grid.flat, self._grid.size, every))
+        return np.asarray(unplaced | close[place])
 
     def _near(self, what: Request, mask: Mask) -> Conditioning:
         """Return how far some poses are from singular ones for a result."""
@@ -1068,6 +1087,9 @@ def each_at_its_stroke(
 
 class OnePose:
     """The base of traced motions, which replace all poses while a program is made; their numbers have no value yet."""
+
+    def _work_out(self, names: Iterable[str]) -> None:
+        """Do nothing: a program is read value by value."""
 
 
 def require_motion(given: object) -> Motion:

@@ -142,6 +142,7 @@ def columns_of(motion: Motion) -> list[Column]:
         for axis, values in zip("xy", motion[point], strict=True):
             table.append(Column(f"{point}_{axis}", values, "m", request=Coordinate(point, axis)))
     outputs = {name: member for name, member in plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))}
+    motion._work_out(outputs)
     return table + [Column(name, motion[name], display_unit(member.measures), request=name) for name, member in outputs.items()]
 
 

@@ -94,7 +94,7 @@ def values_together(motion: Motion, requests: Iterable[RequestLike]) -> dict[Has
     with suppress(LinkageError):
         values, look = Evaluation(motion._grid, tuple(asked)).evaluate(among=motion.reached.reshape(motion._grid.size))
         for k, (each, own) in enumerate(zip(asked, values, strict=True)):
-            if look is None or not (look.broken | look.refused[k] | look.doubtful[k] | look.missing[k]).any():
+            if look is None or look.is_clear(k):
                 found[each.key] = np.where(motion.reached, own, np.nan)
     return found
 

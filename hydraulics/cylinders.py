@@ -543,7 +543,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return that it fits, where its stroke is declared, and that its rod does not buckle."""
         found: dict[str, Condition] = {}
         ends = distance(self.A, self.B)
-        given = {name: LawRequest(text=f"{self.name} {name}", formula=partial(self.length_set, name)) for name in LENGTHS}
+        given = {name: number_request(self, f" {name}", partial(self.length_set, name)) for name in LENGTHS}
         closed, stroke = at(given["closed"]), at(given["stroke"])
         if self.lengths_given == ("stroke",):
             found["length"] = most(ends) - least(ends) <= stroke
@@ -578,12 +578,11 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         circuits, by_side = circuits_of(self, plan), lines_by_side(self, plan)
         read: dict[str, Reading] = {name: partial(self.length_set, name) for name in self.lengths_given}
         read |= circuits[0].gauges_of(self, plan) if len(circuits) == 1 else {}
-        found: dict[str, Request] = {name: LawRequest(text=f"{self.name} {name}", formula=each) for name, each in read.items()}
+        found: dict[str, Request] = {name: number_request(self, f" {name}", each) for name, each in read.items()}
         if by_side:
-            found["most"] = LawRequest(text=f"{self.name} most", formula=partial(most_of_side, self), acting=Acting(), mover=self.name)
+            found["most"] = number_request(self, " most", partial(most_of_side, self), acting=Acting(), mover=self.name)
         if len(circuits) <= 1 or by_side:
-            in_case = partial(pressure_of, self)
-            found["pressure"] = LawRequest(text=f"{self.name} pressure", formula=in_case, acting=Acting(), mover=self.name)
+            found["pressure"] = number_request(self, " pressure", partial(pressure_of, self), acting=Acting(), mover=self.name)
         return found
 
     def formulas(self, written: Formulas) -> None:
@@ -1128,6 +1127,12 @@ def rate_request(cylinder: str) -> LawRequest:
 
     examine = partial(cylinder_in, cylinder)
     return LawRequest(formula=over, text=f"rate({cylinder})", known=("rate", cylinder), measures="speed", examine=examine)
+
+
+def number_request(element: ForceElement, word: str, formula: Callable[..., Array], **more: Any) -> LawRequest:
+    """Return the request for a number of a cylinder or a line, traced once in its class."""
+    text = f"{element.name}{word}"
+    return LawRequest(text=text, formula=formula, known=("number", text) if element.name else None, **more)
 
 
 CylinderLaw: TypeAlias = Callable[[AnyMotion, Ram, Acting], Array]

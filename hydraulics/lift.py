@@ -41,6 +41,7 @@ from .cylinders import (
     least_and_most,
     line_beside,
     lines_of,
+    number_request,
     other_side,
     thrust_request,
     works_by_lines,
@@ -398,7 +399,7 @@ class LiftingCylinder:
         """Return its conditions: it lifts, holds on both sides, and goes back."""
         asked, name = (self.ram.name, Acting(), self.circuit.name), self.circuit.name
         laws = self.circuit.relief_pressure, self.circuit.supply
-        held, supply = (at(LawRequest(text=f"{name} {each.__name__}", formula=each)) for each in laws)
+        held, supply = (at(number_request(self.circuit, f" {each.__name__}", each)) for each in laws)
         back = [most(going_back_request(*asked, way)) for way in self.ways_back]
         sinks = AllOf(tuple(each <= supply if self.ram.side == "both" else each <= 0.0 for each in back))
         holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
@@ -641,7 +642,7 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
         return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(one_design(ram.taken(judge.motion, *own)) for ram, own in zip(rams, ends, strict=True))
     if circuit.fills_others(judge.motion):
-        low, high = judge.answers(least_and_most(LawRequest(text=f"{circuit.name} volume", formula=circuit.volume, measures="volume")))
+        low, high = judge.answers(least_and_most(number_request(circuit, " volume", circuit.volume, measures="volume")))
         oil = float(high.value - low.value)
     both = [(ram, high - low) for ram, (low, high) in zip(rams, ends, strict=True) if ram.side == "both"]
     back = sum(float(way) * one_design(ram.sized(judge.motion).pull_area) for ram, way in both)

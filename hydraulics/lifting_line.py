@@ -11,7 +11,7 @@ Source: worksheet of the mower lift; Dyuzhev, Kotov, Chuprynin (2008), (28), (29
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial, reduce
 from operator import add
@@ -411,15 +411,24 @@ class LiftLine(Circuit):
             return work
         if work.size.works != "both":
             acting = replace(acting, direction=acting.direction or ("retracting" if work.size.works == "rod" else "extending"))
-        others = list[tuple[Work, Array]]()
+        return self._with_others(cylinder, work, motion, partial(self._moved_with, cylinder, motion, acting))
+
+    def _with_others(self, cylinder: Ram, work: Work, motion: AnyMotion, of: Callable[[Ram, Array], Work]) -> Work:
+        """Return a work with those of the others on the line, each of how its length follows."""
+        rams, others = rams_beside(self, cylinder, motion), list[tuple[Work, Array]]()
         for each in (one for one in rams if not same(one, cylinder)):
             own, rate = growths(motion, (cylinder, each), cylinder)
-            thrust = moving_with(cylinder, each, motion, acting, partial(self._work_thrust, each, motion))
-            others.append((replace(self.work_of(each, motion, acting), thrust=thrust), rate / own))
+            beside = of(each, rate / own)
+            along = np.where(beside.pulls, -rate, rate) * np.where(work.pulls, -own, own)
+            is_spool = any(one.side == "both" for one in rams)  # it drains what goes against its side
+            others.append((beside, np.where(is_spool & (along < 0.0), 0.0, rate / own)))
         return replace(work, others=tuple(others))
 
-    def _work_thrust(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        return self.work_of(cylinder, motion, acting).thrust
+    def _moved_with(self, cylinder: Ram, motion: AnyMotion, acting: Acting, each: Ram, rate: Array) -> Work:
+        def thrust(acting: Acting) -> Array:
+            return self.work_of(each, motion, acting).thrust
+
+        return replace(self.work_of(each, motion, acting), thrust=moving_with(cylinder, each, motion, acting, thrust))
 
     def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
@@ -527,10 +536,24 @@ class LiftLine(Circuit):
                 low, high = (low, nothing) if size.works == "rod" else (nothing, high)
         else:
             k_m = self.efficiency(motion, "mechanical")
-            works = (Work(way, way, size, k_m, drained) for way in (np.asarray(-1.0), np.asarray(1.0)))
-            pull, push = (self._given(motion, work, share) * k_m for work in works)
+            works = [Work(way, way, size, k_m, drained) for way in (np.asarray(-1.0), np.asarray(1.0))]
+            pull, push = (self._shared(ram, motion, work, share) for work in works)  # type: ignore[arg-type]
             low, high = (-pull if size.works in ("rod", "both") else nothing), (nothing if size.works == "rod" else push)
         return low + others, high + others
+
+    def _shared(self, ram: Ram, motion: AnyMotion, work: Work, share: float) -> Array:
+        """Return the greatest thrust of one cylinder's work [N]: of several its part without losses of what all give at one pressure."""
+        back, rams = self.back(motion), self.rams(motion)
+        drains = [line for each in rams for line, _ in lines_of(each, motion.plan.members, "given") if line.is_drained]
+        if len(rams) == 1 or not (drains or is_traced(back) or np.any(back > 0.0)):
+            return self._given(motion, work, share) * work.k_m
+        every = self._with_others(ram, work, motion, partial(self._towards, motion, work))
+        pressure = (self._given(motion, every, share) * work.k_m + every.against) / every.area
+        return np.asarray(pressure * work.area - work.against)[()]
+
+    def _towards(self, motion: AnyMotion, work: Work, each: Ram, rate: Array) -> Work:
+        way = work.sense * np.sign(rate)
+        return Work(way, way, each.sized(motion), work.k_m, by_other_lines(each, self, motion, None, True))
 
     def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.

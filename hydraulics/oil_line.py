@@ -54,6 +54,7 @@ from .cylinders import (
     least_and_most,
     lines_giving,
     lines_of,
+    number_request,
     side_left,
     the_cylinder,
 )
@@ -759,10 +760,10 @@ class OilLine(PumpLine, GasLine):
         if self.kind_of_line != "closed":
             return {}
         pressure = self.pressure_request(judge.plan)
-        keeps = least(pressure) >= at(LawRequest(text=f"{self.name}.make_up", formula=partial(number_set, self, name="make_up")))
+        keeps = least(pressure) >= at(number_request(self, ".make_up", partial(number_set, self, name="make_up")))
         if not self.relieves(judge.plan):
             return {"line": keeps}
-        opens = at(LawRequest(text=f"{self.name} relief", formula=partial(self.number, name="relief")))
+        opens = at(number_request(self, " relief", partial(self.number, name="relief")))
         return {"line": AllOf((keeps, most(pressure) <= opens))}
 
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:

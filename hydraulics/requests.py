@@ -221,7 +221,12 @@ def pressure_request(
     kinds = " ".join(["needed"] * is_needed + ["below zero"] * below) or None
     options = (side and f"side={side}") or None, kinds
     found = circuit_request("pressure", cylinder, acting, circuit, in_cylinder, options, "pressure")
-    cases_in = partial(is_free, cylinder, side, circuit) if circuit and side else found.cases_in
+
+    def cases_in(plan: Plan, case: str) -> bool:
+        if circuit and side:
+            return is_free(cylinder, side, circuit, plan, case)
+        return line_in(cylinder, plan) is not None or found.occurs_in(plan, case)
+
     return replace(found, formula=formula, examine=examine, directions=directions, pieces_in=pieces, cases_in=cases_in)
 
 
@@ -585,17 +590,10 @@ def flow(line: Reference) -> LawRequest:
             raise DefinitionError(f"{plan.title}: flow({name}): the name of a line is expected: {lines}.")
         return known
 
-    def taken(motion: AnyMotion, filled: tuple[Ram, list[Array]]) -> Array:
-        ram, areas = filled
-        grows = ram.growth(motion, own_rates(motion, f"flow({name})"))
-        if len(areas) > 1 and ram.works_both:  # the pump is on the side that works
-            return np.where(grows > 0.0, areas[0] * grows, areas[1] * grows)
-        return reduce(np.add, areas) * grows
-
     def over(motion: AnyMotion) -> Array:
-        rams: dict[str, tuple[Ram, list[Array]]] = {}
-        for ram, chamber in sorted(found(motion.plan).filling(motion.plan.members), key=lambda each: each[1].side != PISTON):
-            rams.setdefault(ram.name, (ram, []))[1].append(chamber_area(chamber, ram, motion))
-        return reduce(np.add, [taken(motion, each) for each in rams.values()])
+        rates, filled = own_rates(motion, f"flow({name})"), found(motion.plan).filling(motion.plan.members)
+        taken = [chamber_area(chamber, ram, motion) * ram.growth(motion, rates) for ram, chamber in filled]
+        both = [ram.name for ram, _ in filled if ram.works_both]  # where a spool has both sides the pump is on those that grow
+        return reduce(np.add, [np.maximum(each, 0.0) for each in taken] if len({*both}) < len(both) else taken)
 
     return LawRequest(formula=over, text=f"flow({name})", known=("flow", name), measures="flow", examine=found)

@@ -27,7 +27,7 @@ from linkage.statics import AnyMotion, LawRequest, held_in_case, member_thrust, 
 from linkage.units import show
 from linkage.verdict import Verdict
 
-from .cylinders import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among
+from .cylinders import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among, number_request
 from .inputs import Array, follows, in_pascals, number_set, one_design, positive
 from .lifting_line import LiftLine
 from .standing import common_area, common_sum, moves_in
@@ -323,10 +323,10 @@ class HoldingValve(OnLines, HasVerdicts):
 
     def conditions(self, judge: Judge) -> Mapping[str, Condition]:
         pump = self.pumped(judge.plan.members)
-        setting = at(LawRequest(text=f"{self.name}.setting", formula=partial(self.at_designs, name="setting")))
+        setting = at(number_request(self, ".setting", partial(self.at_designs, name="setting")))
         found: dict[str, Condition] = {"setting": most(valve_request("load_pressure", self.name, Acting())) <= setting}
         if pump is not None:
-            supply = at(LawRequest(text=f"{pump.name} supply", formula=pump.supply))
+            supply = at(number_request(pump, " supply", pump.supply))
             found["pilot"] = most(valve_request("pilot_pressure", self.name, Acting())) <= supply
         return found
 

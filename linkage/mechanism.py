@@ -38,7 +38,7 @@ from .motion import Answer, Featured, Positions, RequestLike, Target, at_values,
 from .motion.functions import PoseFunction, evaluate, source_of
 from .motion.judge import Judge, Question
 from .motion.motion import Motion, require_motion
-from .motion.motion_verdicts import HELD, judge_verdicts
+from .motion.motion_verdicts import HELD, judge_verdicts, refused_forces
 from .motion.over import OPTIONS, Over
 from .motion.table import Column, columns_of
 from .plan import Body, Part, Plan, check_circuits, require_kinds, with_parts
@@ -99,6 +99,7 @@ def played_along(motion: Motion, at: object) -> tuple[Mechanism, Motion]:
 def verdicts_of(machine: Mechanism, judge: Judge, motion: Motion | None = None) -> list[Verdict]:
     """Return the verdicts of a judge and of the machine's rules; asked again in other words or units, the judge searches nothing."""
     fault: Verdict | None = from_above(HELD)(judge)
+    fault = refused_forces(judge) if fault is None else fault
     try:
         own: object = machine.rules(judge.places[0].sampled if motion is None else motion)
     except DefinitionError:

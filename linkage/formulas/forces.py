@@ -20,7 +20,7 @@ from sympy.matrices.expressions.matmul import MatMul
 from ..errors import DefinitionError, ensure
 from ..loads import AT_REST, Acting, Case, ForceElement, Rate, Rates, Support, TwoPinned, TwoPoint
 from ..mechanism import Mechanism
-from ..motion import Motion, stroke_unit
+from ..motion import Motion, drive_kind
 from ..motion.requests import stroke_of
 from ..quantities import Angle, Distance, Quantity, Reference, joined_names, name_of
 from ..statics import applied_elements, applied_loads, axle_load, standing_supports
@@ -208,7 +208,7 @@ class ForceLines:
         chains = self._chains = {stroke: Chain(self, stroke, pulled, holders) for stroke in self.plan.strokes}
         for stroke, chain in chains.items():
             self.lines += chain.lines
-            self._write(f"Q_{stroke}", chain.need(pulled), "kN" if stroke_unit(self.plan, stroke) == "m" else "Nm")
+            self._write(f"Q_{stroke}", chain.need(pulled), drive_kind(self.plan, stroke)[1])
         self._hold(holders.lines)
         self._stand(acting)
         self.design.formulas(self)

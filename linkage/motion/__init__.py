@@ -9,7 +9,7 @@ from .gaps import gap, nearest_places
 from .grid import Grid
 from .instants import Instants
 from .judge import Judge, Question, case_named, judge_along
-from .limits import places_text, stroke_display_unit, stroke_measure, stroke_unit, way_text
+from .limits import drive_kind, places_text, stroke_display_unit, stroke_measure, stroke_unit, way_text
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, each_at_its_stroke, require_motion

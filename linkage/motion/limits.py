@@ -371,7 +371,7 @@ def shown_stroke_unit(unit: str, length: str = "mm") -> str:
 
 
 def stroke_measure(plan: Plan, name: str) -> str:
-    """Return the kind of a stroke: "angle", "length" or, for a share, "number"."""
+    """Return the kind of a stroke: "angle", "length", "volume" or, for a share, "number"."""
     return plan.stroke_kinds[name] or "length"
 
 
@@ -380,6 +380,11 @@ def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:
     return shown_stroke_unit(stroke_unit(plan, name), length)
 
 
+def drive_kind(plan: Plan, name: str) -> tuple[str, str]:
+    """Return the kind of what drives a stroke, a force, a pressure or a moment, and the unit in which it is shown."""
+    return {"m": ("force", "kN"), "m3": ("pressure", "bar")}.get(stroke_unit(plan, name), ("moment", "Nm"))
+
+
 def stroke_unit(plan: Plan, name: str) -> str:
-    """Return the unit of a stroke: rad, m, or none for a share."""
+    """Return the unit of a stroke: rad, m, m3, or none for a share."""
     return SI.get(stroke_measure(plan, name), "")

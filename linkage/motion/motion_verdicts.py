@@ -148,6 +148,16 @@ HELD, DRIVES, PACE = "linkage.statics:held_verdict", "linkage.statics:drive_rema
 """What says of any machine whether it is held, what its drives give, where inertia is left out: in the room of forces, above."""
 
 
+def refused_forces(judge: Judge) -> Verdict | None:
+    """Return the verdict that what members ask is refused, as by gas that is pressed to nothing; None where all of it has answers."""
+    if not any(map(np.ndim, judge.designs.values())) and judge.is_reached:
+        try:
+            judge._once("verdict questions", lambda: judge.answers(verdict_questions(judge)))
+        except DefinitionError as error:
+            return Verdict.refused("forces", error)
+    return None
+
+
 def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
     """Return the verdicts on any machine over all that it runs, and differences from its drawing; of a batch, how many designs fail.
 
@@ -159,8 +169,6 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
     elif not judge.is_reached:
         found = assembly_verdicts(judge)
     else:
-        if not fault:
-            judge._once("verdict questions", lambda: judge.answers(verdict_questions(judge)))
         found, said_of = geometry_verdicts(judge), member_verdicts(judge.lost_allowed(), fault)
         is_assembled = not fault and all(found)
         for each in said_of:
@@ -326,7 +334,10 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
         yield Verdict("change points", False, text)
     still = [place_of(limits, value, name) for value, name in limits.cylinder_dead_points if low - near <= value <= high + near]
     if still:
-        text = said("its length stands still: {places}; there its thrust moves nothing.", places="; ".join(still))
+        text = said(
+            "its length stands still: {places}; there its thrust moves nothing. Move its pins, or keep away from there.",
+            places="; ".join(still),
+        )
         yield Verdict("cylinder's dead point", False, text)
 
 

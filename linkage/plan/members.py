@@ -15,9 +15,10 @@ from typing import Any, TypeVar
 from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..language import translated
+from ..loads.element import ForceElement
 from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable, body_name, joined_names
 from ..quantities.member import Member, is_member_or_name, kinds_said, name_of, needed_behind, needs, of_kind, unnamed
-from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, signed_terms, stands_for
+from ..quantities.quantity import Function, Negative, Number, Operation, Quantity, Sum, in_degrees, quantity, signed_terms, stands_for
 from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, strokes_drawn, with_bodies
 from ..units import Amount, display_unit, require_measure, show
 from .table import Table
@@ -372,11 +373,14 @@ class Members:
     def stroke_kinds(self) -> Mapping[str, str]:
         """What each stroke is shown as: by its sums, else as it was given, else by what it multiplies; "" where nothing tells.
 
-        phi of `angle=phi / 2` is an "angle", k of `AB=L + k * S`, with a length S, a plain "number".
+        phi of `angle=phi / 2` is an "angle", k of `AB=L + k * S`, with a length S, a plain "number", V of `oil=V` a "volume".
         """
         asked = [*((each, "angle") for each in self.given_angles), *((each, "length") for each in self.given_lengths)]
         scaled = ((name, (self.scaled_kind(name, *each) for each in asked)) for name in self.strokes)
-        return FrozenDict({name: self.known_stroke_kind(name) or next(filter(None, kinds), "") for name, kinds in scaled})
+        numbers = [(each.given(name), unit) for each in self.of_kind(ForceElement).values() for name, unit in each.numbers.items()]
+        volumes = set[str]().union(*(self.terms(quantity(each)) for each, unit in numbers if unit == "l"))  # such as a line's oil
+        kinds = {name: self.known_stroke_kind(name) or next(filter(None, found), "") for name, found in scaled}
+        return FrozenDict({name: kind or ("volume" if name in volumes else "") for name, kind in kinds.items()})
 
     def scaled_kind(self, name: str, given: Quantity, kind: str) -> str:
         """Return the kind of a stroke that a product among the terms of a "length" or an "angle" has as a factor; else ""."""

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..language import said
 from ..loads import AS_IT_RUNS, PLAIN, Acting, Case, Loads, TwoPoint, case_in_words, situation_of
-from ..motion import Judge, Motion, most, require_motion, stroke_unit
+from ..motion import Judge, Motion, drive_kind, most, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray, Node
@@ -97,7 +97,7 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
         return law_in_plan(motion, trace, f"the driving force of {stroke_of(motion.plan, drive, 'drive')}")
 
     def measured(plan: Plan) -> str:
-        return "force" if stroke_unit(plan, stroke_of(plan, drive, "drive")) == "m" else "moment"
+        return drive_kind(plan, stroke_of(plan, drive, "drive"))[0]
 
     return replace(force_request("drive_force", [drive] if drive else [], drive, given, formula, look_up), measured_in=measured)
 
@@ -296,8 +296,8 @@ def drive_remarks(judge: Judge) -> list[Remark]:
     for (name, case), answer in zip(asked, answers, strict=True):
         size = float(answer.value)
         if size > max(LEAST, found[name][0] if name in found else 0.0):
-            unit = "kN" if stroke_unit(plan, name) == "m" else "Nm"
-            force = said("a force that grows without bounds") if np.isinf(size) else said("up to {force}", force=show(size, unit, 4))
+            shown = show(size, drive_kind(plan, name)[1], 4)
+            force = said("a force that grows without bounds") if np.isinf(size) else said("up to {force}", force=shown)
             what = said("{stroke} is held by no cylinder: its drive gives {force}", stroke=name, force=force)
             found[name] = size, Remark(f"{what}, {case_in_words(case) + ', ' if case else ''}{answer.place}.")
     return [remark for _, remark in found.values()]

@@ -12,14 +12,14 @@ import numpy as np
 from ..errors import DefinitionError, ensure, known_name, unknown
 from ..language import said, translated
 from ..loads import AS_IT_RUNS, PLAIN_CASE, Acting, ActingKeywords, LinkMass, Load, Loads, situation_of, takes_situation
-from ..motion import Motion, require_motion, stroke_unit
+from ..motion import Motion, drive_kind, require_motion
 from ..motion.limits import refuse_at, where_said
 from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray
 from ..quantities import Reference, name_of
 from ..shown import Shown
-from ..units import kN, show
+from ..units import UNITS, kN, show
 from .applied import applied_loads, rates_in
 from .force_program import forces_at
 from .joints import FRAME, FRAME_NAME, Structure, acting_place, force_direction
@@ -343,7 +343,7 @@ class PinForces(Shown):
         return work_gap(self._found.poses, without_held(self._found.applied, self._structure.holders), self.drives)
 
     def __str__(self) -> str:
-        units = {name: "N" if stroke_unit(self.motion.plan, name) == "m" else "Nm" for name in self.drives}
+        units = {name: drive_kind(self.motion.plan, name)[1].replace("kN", "N") for name in self.drives}
         lines = [f"  {name}: {range_text(values, units[name])}" for name, values in self.drives.items()]
         lines += [f"  thrust of {name}: {range_text(values, 'kN')}" for name, values in self.thrusts.items()]
         lines += [f"  tension of {name}: {range_text(values, 'kN')}" for name, values in self.tensions.items()]
@@ -442,8 +442,8 @@ def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str, by: 
 
 
 def range_text(values: FloatArray, unit: str) -> str:
-    """Return a range of values [N or Nm] in words, in the unit given."""
-    finite = np.asarray(values)[np.isfinite(values)] / (kN if unit == "kN" else 1.0)
+    """Return a range of values [SI] in words, in the unit given."""
+    finite = np.asarray(values)[np.isfinite(values)] / UNITS[unit][0]
     if not finite.size:
         return "no value"
     ends = dict.fromkeys(f"{float(value):.6g}" for value in (finite.min(), finite.max()))

@@ -19,6 +19,7 @@ from hydraulics import (
     Relief,
     Tank,
     Telescope,
+    flow,
     lift_verdicts,
     pressure,
     reserve,
@@ -40,6 +41,7 @@ from linkage import (
     Mechanism,
     OnGuide,
     OnLink,
+    Over,
     Pin,
     PinFriction,
     Rope,
@@ -302,6 +304,50 @@ def test_a_parts_list_names_the_link_that_a_rope_or_a_line_gives_its_length():
         assert_allclose(motion.distance("C", "W"), 2.3, rtol=1e-12)
 
 
+@for_all("seed", range(3), slow=range(3, 20))
+def test_the_oil_that_a_spool_gives_does_the_work_of_its_rams(seed):
+    draw, rams = Random(seed), ["ram0", "ram1", "ram2"][: 2 + seed % 2]
+    members = dict(S=Stroke(-0.3, 0.3), O=Ground(0.0, 0.0), B=Crank("O", OB=0.5, angle="S"), line=LiftCircuit(rams, pressure=200 * bar))
+    for k, ram in enumerate(rams):
+        works = draw.choice(("piston", "rod", "both")) if k else "both"
+        members[f"A{ram}"] = Ground(draw.uniform(-0.3, 0.3), draw.choice((-1, 1)) * draw.uniform(0.4, 0.7))
+        members[ram] = Cylinder(f"A{ram}", "B", bore=draw.uniform(60, 120) * mm, rod=draw.uniform(25, 55) * mm, works=works)
+    machine = made(base=Mechanism, load=Force("B", (0.0, -40 * kN)), **members)()
+    motion = machine.sweep(5, over=Over.path(S=[-0.2, 0.2], time=[0.0, 2.0]))
+    moved = [machine.plan.members[ram] for ram in rams]
+    work = sum(ram.thrust(motion) * ram.growth(motion, motion.rates) for ram in moved)
+    assert np.all(work > 0.0)
+    assert_allclose(motion[flow("line")] * machine.plan.members["line"].pressure_for(motion, cylinder="ram0"), work, rtol=1e-9)
+
+
+def test_a_stroke_that_is_a_lines_oil_is_a_volume_that_a_pressure_drives():
+    for oil in (ref("oil"), ref("oil") + 1e-4):
+        line = OilLine("ram.piston_side", filled=dict(ram=0.8), oil=oil)
+        lifted = dict(O=Ground(0.0, 0.0), rail=Guide("O", angle=90 * deg), P=OnGuide("rail", at=ref("ram.length")))
+        ram = Cylinder("O", "P", bore=80 * mm, rod=45 * mm)
+        machine = made(base=Mechanism, oil=Stroke(0.0, 1e-3), ram=ram, line=line, load=Force("P", (0.0, -10 * kN)), **lifted)()
+        told = f"{10 * kN / AREA / bar:.6g} bar"
+        assert f"oil: {told}\n" in str(pin_forces(machine.sweep(3)))
+        assert str(machine.answers([most(drive_force("oil"))])[0]) == f"{told} at oil = 0.000 l"
+        assert_allclose(machine.answers([most(pressure("line"))])[0].value, 10 * kN / AREA)
+        assert str(machine.verdicts()[0]) == "ok   assembly: it is assembled over oil = 0 to 1 l."
+
+
+def crushed():
+    block = AccumulatorBlock([Accumulator(volume=0.3 * litre, charge=60 * bar)])
+    return made(line=OilLine("ram.piston_side", block, charge_pressure=90 * bar, at=0.2))
+
+
+@for_all("machine, says", [
+    (crushed(), "leaves no gas; take larger accumulators"),
+    (made(line=LiftCircuit("ram", pressure=200 * bar, back_pressure=900 * bar)), "the back pressure eats up the pump's; lower it"),
+])  # fmt: skip
+def test_forces_that_are_refused_are_a_verdict_that_is_not_kept(machine, says):
+    found = machine().verdicts()
+    assert found[0].rule == "forces" and found[0].ok is False and says in found[0].sentence
+    assert [each.rule for each in found if says in each.sentence] == ["forces"] and any(each.rule == "assembly" for each in found)
+
+
 def shared(seed):
     """Return a boom and a jib, each on two or three rams of one spool or on joined chambers; its rams and their lines, arm by arm."""
     draw, members, arms = Random(seed), dict(S=Stroke(-0.3, 0.3), R=Stroke(-0.3, 0.3)), []
@@ -471,6 +517,11 @@ def test_losses_and_a_returning_pressure_leave_one_pressure_on_a_line(seed):
         assert_allclose(line.pressure_for(motion, cylinder=ram, direction=ways[ram]), pressed, rtol=1e-8)
         assert_allclose(line.reserve(motion, cylinder=ram, direction=ways[ram]), used, rtol=1e-8)
         assert_allclose(np.ravel(machine.evaluate([reserve(ram, direction=ways[ram])], **poses)), used, rtol=1e-8)
+    own = [*machine.plan.of_kind(ForceElement)]
+    added = pulling("B", (0.0, 1.0), line.capacity(motion, "B"), motion)  # what it lifts brings it to its pump's pressure
+    assert_allclose(line.pressure_for(motion, [*own, added], cylinder="ram0", direction="extending"), 250 * bar, rtol=1e-7)
+    charted = LoadAt(machine.plan, machine.plan.defaults, "B", (0.0, 1.0)).at(poses).min(axis=0)
+    assert_allclose(charted, line.capacity(motion, "B"), rtol=1e-7)
     told = [str(each) for each in machine.verdicts()]
     for rule in ("lifting", "holding", "lowering"):
         numbers = [re.findall(r"[\d.]+ bar|reserve is [\d.]+", each) for each in told if f" {rule} " in each]

@@ -24,6 +24,7 @@ from ..plugins import Plugins
 from ..quantities import as_mapping, numbers_in
 from ..reports import (
     NOTHING,
+    At,
     Run,
     first_stroke,
     joined_tables,
@@ -163,7 +164,9 @@ def declared_motions(job: ExportJob) -> list[tuple[Run, Motion]]:
         return []
     found = list[tuple[Run, Motion]]()
     for run in runs_of(machine):
-        motion = motion_over(machine, run, shares) if run.instants is not None else run.divided(job.count) if run.is_curve else run.poses
+        motion: At | Motion = (
+            motion_over(machine, run, shares) if run.instants is not None else run.divided(job.count) if run.is_curve else run.poses
+        )
         found.append((run, reached_motion(machine, motion)))
     return [(replace(run, title=run.title or motion.over.words(motion)), motion) for run, motion in found] if len(found) > 1 else found
 

@@ -49,6 +49,8 @@ def export_command(options: Namespace) -> int:
     from ..exports import ExportJob, export, exporter_of
 
     exporter = exporter_of(Path(options.output or "x.xlsx"), options.format)
+    is_fit = options.over is None or not exporter.of_machines
+    ensure(is_fit, f"--over {options.over}: {exporter.of_machines}; hold strokes by --at, S=0.1,0.6.")
     path = Path(default_name(options, machine) + exporter.suffix if options.output is None else options.output)
     check_place(path)
     found = strokes_or_motion(machine, options)

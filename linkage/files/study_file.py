@@ -73,6 +73,9 @@ class StudyHead:
         base = Path() if faults.name == TEXT else Path(path).parent
         known = ("machine", "set", "doc", *keys)
         data = faults.data if isinstance(faults.data, Mapping) else {}
+        if "strokes" in data.keys() - {"machine", *known}:
+            told = f'name it in another file, machine = "{faults.name}", and what is asked of it'
+            raise FileError(f"{faults.name} is a machine itself; {told}.")
         for key in data:
             if key not in known:
                 faults.add((str(key),), str(unknown("Key", key, known)))

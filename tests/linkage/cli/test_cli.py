@@ -377,6 +377,7 @@ def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
         ("table mower_lif", "Did you mean mower_lift?"),
         ("tabel mower_lift", "Did you mean table?"),
         ("table mower_lift --set OBB=1", "Did you mean OB?"),
+        ("export mower_lift -o lift.xlsx --over S=0.6:0.7", "a workbook follows its dimensions; hold strokes by --at, S=0.1,0.6"),
         ("table mower_lift --set OB=300", "--set OB=300: without a unit this is 300000 mm in SI, where MowerLift has 175"),
         ("table mower_lift --set OB=18deg", "--set OB: '18deg' is"),
         ("table mower_lift --set weight=3mm", "value of kind force is wanted"),

@@ -311,6 +311,7 @@ CHANGES = [
     ('"1 mm"', "{ toe = 1 }", "line 7, round: toe is no step"),
     ('"1 mm"', '"1 mm', "line 7:"),
     ("[vary]", "[varied]", "Key 'varied' is unknown. Did you mean vary?"),
+    ("[vary]", "[strokes]", 'study.toml is a machine itself; name it in another file, machine = "study.toml", and what is asked of it'),
     ("[vary]", "regions = { T = [[0, 0], [1, 1]] }\n[vary]", "regions.T: Boom: regions={'T': ...}: [[0.0, 0.0], [1.0, 1.0]]: a region has"),
 ]
 

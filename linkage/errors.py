@@ -230,18 +230,26 @@ def is_yes(name: str, given: object) -> bool:
 
 
 FIELD_WORDS = {
-    "diameter": "bore rod", "piston": "bore", "piston_diameter": "bore", "rod_diameter": "rod", "travel": "stroke", "weight": "mass",
-    "force": "thrust drive_force mass", "load": "thrust mass", "volume": "flow", "delivery": "flow", "displacement": "stroke flow",
-    "length": "distance stroke", "pump": "pressure", "supply": "pressure",
-    "torque": "moment drive_force", "rate": "stiffness flow", "leverage": "ratio", "safety": "reserve",
-}  # fmt: skip
-"""Words of the field for what has another name here."""
+    "bore": "diameter piston piston_diameter",
+    "rod": "diameter rod_diameter",
+    "thrust": "force load",
+    "drive_force": "force torque",
+    "mass": "weight force load",
+    "stroke": "travel displacement length",
+    "distance": "length",
+    "pressure": "pump supply",
+    "flow": "volume delivery displacement rate",
+    "stiffness": "rate",
+    "ratio": "leverage",
+    "reserve": "safety",
+}
+"""What the field calls some things beside their names here."""
 
 
 def did_you_mean(name: object, names: Sequence[str]) -> str:
     """Return " Did you mean ...?" with the nearest of some names, of the same member first; "" where none is near."""
     whose, _, word = name.rpartition(".") if isinstance(name, str) else ("", "", "")
-    other = FIELD_WORDS.get(word.lower(), "").split()
+    other = [own for own, words in FIELD_WORDS.items() if word.lower() in words.split()]
     near = [each for own in other for each in names if each.replace(" ", "_") in (own, f"{whose}.{own}")]
     near = near or [each for own in other for each in names if each.rpartition(".")[2] == own][:3]
     if isinstance(name, str) and not near:

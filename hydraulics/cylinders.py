@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited, ensure, is_listed, known_name, require, unknown, unwarned
 from linkage.frozen import immutable, refuses_changes
 from linkage.language import noted, said, translated
-from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceElement, Load, Push, Rates, TwoPoint
+from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceElement, LawElement, Push, Rates, TwoPoint
 from linkage.loads.acting import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Share, Tie, by_speeds, require_poses
 from linkage.motion import Answer, Column, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
@@ -1315,14 +1315,11 @@ Feeds: TypeAlias = "Reference | Sequence[Reference]"
 """The cylinders of a circuit: one, or a list."""
 
 
-class OnLines(ForceElement):
+class OnLines(LawElement):
     """The base of oil lines and their parts: they act on cylinders, put no force on points, and no load case multiplies them."""
 
     places: ClassVar[tuple[str, ...]] = ()
     file_section: ClassVar[str] = "hydraulics"
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
 
     @property
     def scales(self) -> bool:

@@ -21,9 +21,8 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, can_be_called, cited, ensure, require, require_type
 from linkage.frozen import immutable
 from linkage.language import said
-from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
-from linkage.loads.two_point import end_forces
 from linkage.motion import Answer, Judge, Motion, MotionFunction
 from linkage.plan import require_kinds
 from linkage.program import is_traced
@@ -280,12 +279,6 @@ class GasLine(Circuit):
             return []
         given = rates if rates.has_friction else AT_REST
         return [Push(ram, self.thrust_of(ram, motion, given)) for ram in self.rams(motion)]
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return self.moving(motion, AT_REST)
-
-    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
-        return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
 
 
 @immutable

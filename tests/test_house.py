@@ -283,9 +283,9 @@ def test_no_room_bears_the_name_of_a_public_function():
 
 BASES = {
     "ActingKeywords", "Amount", "Arithmetic", "AssemblyError", "BarrelAndRod", "DefinitionError", "Directed", "Expression", "FourBar",
-    "FrozenDict", "Function", "Ground", "HasSentence", "Jointed", "Kind", "Leaf", "LinkageError", "Mechanism", "Member", "Members",
-    "Mistakes", "Motion", "Number", "OnBody", "OnCylinder", "OnLines", "OnePose", "Outline", "PlacedFile", "Poses", "PumpLine", "Range",
-    "Reading", "Renaming", "Request", "Shown", "Step", "StudyError", "Supply", "TurnV", "VectorNumber", "Verdict", "Where",
+    "FrozenDict", "Function", "Ground", "HasSentence", "Jointed", "Kind", "LawElement", "Leaf", "LinkageError", "Mechanism", "Member",
+    "Members", "Mistakes", "Motion", "Number", "OnBody", "OnCylinder", "OnLines", "OnePose", "Outline", "PlacedFile", "Poses", "PumpLine",
+    "Range", "Reading", "Renaming", "Request", "Shown", "Step", "StudyError", "Supply", "TurnV", "VectorNumber", "Verdict", "Where",
 }  # fmt: skip
 """Classes that others are derived from though they have no abstract method; all others are abstract or final."""
 

@@ -31,6 +31,7 @@ from .element import (
     ForceElement,
     Friction,
     Glyph,
+    LawElement,
     Load,
     Parameter,
     Poses,

@@ -841,6 +841,33 @@ class ForceElement(Jointed):
         return self.renewed(**{name: values[key] for name, key in keys.items() if key in values})
 
 
+class LawElement(ForceElement):
+    """The base of elements whose loads are those of their law at rest: of `moving`, by default the ends of what they push."""
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return self.moving(motion, AT_REST)
+
+    @by_speeds
+    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
+        return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
+
+
+def end_forces(push: Push, motion: Poses) -> list[Load]:
+    """Return the forces of a two-point member on the points at its ends [N]; DefinitionError where they coincide while it pushes."""
+    A, B = push.member.ends
+    arm, length = motion[B] - motion[A], motion.distance(A, B)
+    refuse_coincidence(push, length)
+    force = arm / np.where(length == 0.0, 1.0, length) * push.thrust
+    return [Load(A, -force), Load(B, force)]
+
+
+def refuse_coincidence(push: Push, length: Array) -> None:
+    """Raise DefinitionError where the ends of a two-point member coincide while it pushes or pulls."""
+    if np.any((length == 0.0) & (push.thrust != 0.0)):
+        what = f"{push.member.name} = {push.member}" if push.member.name else str(push.member)
+        raise DefinitionError(f"{what}: its ends coincide at some poses and give no direction; move one of them.")
+
+
 def check_together(elements: Mapping[str, object] | Sequence[tuple[str, object]], members: Mapping[str, Member], title: str) -> None:
     """Raise DefinitionError for loads that cannot act together: one that stands twice, two of one name, two that claim one thing.
 

@@ -15,13 +15,13 @@ from ..quantities import Axes, Member, Reference, is_number, label, name_of, rea
 from ..quantities.quantity import plain
 from ..steps import Link, Point
 from ..units import Amount, g0, require_measure
-from .element import AT_REST, Array, ForceElement, Friction, Glyph, Load, Parameter, Poses, Rates, by_speeds, couple, value_text
+from .element import Array, ForceElement, Friction, Glyph, LawElement, Load, Parameter, Poses, Rates, by_speeds, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
 
 
 @immutable
-class Weight(ForceElement):
+class Weight(LawElement):
     """The weight of a mass at a point: `load = Weight(G, mass=1200)`. Where it is accelerated, its inertia acts too.
 
     Parameters
@@ -44,9 +44,6 @@ class Weight(ForceElement):
     def __post_init__(self) -> None:
         super().__post_init__()
         object.__setattr__(self, "gravity", gravity_vector(self.gravity, "Weight"))
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return self.moving(motion, AT_REST)
 
     @by_speeds
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
@@ -371,7 +368,7 @@ class Moment(OnBody):
 
 
 @immutable
-class LinkMass(OnBody):
+class LinkMass(OnBody, LawElement):
     """A body's own mass at its centre of gravity: `own = LinkMass("E D F", mass=30)`.
 
     Parameters
@@ -414,9 +411,6 @@ class LinkMass(OnBody):
     def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
         return (Glyph("mass", self.points(members, ""), away=self.at),)
 
-    def loads(self, motion: Poses) -> list[Load]:
-        return self.moving(motion, AT_REST)
-
     @by_speeds
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         P, Q, arm = self.axis(motion)
@@ -456,7 +450,7 @@ THICKEST = 3.0
 
 
 @immutable
-class PinFriction(ForceElement):
+class PinFriction(LawElement):
     """Friction in a pin: the moment coefficient * radius * pin force, against the relative turning.
 
     A pin of more than two bodies sits fast in the first of them (the frame, if it is one): the others turn on it.
@@ -484,9 +478,6 @@ class PinFriction(ForceElement):
             large = f"{self.radius:.6g}"
             raise DefinitionError(f"PinFriction: radius={large} m is more than any pin has; write {large} * mm if these are millimetres.")
 
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
-
     def frictions(self, motion: Poses) -> list[Friction]:
         return [Friction(name_of(self.point), self.number(motion, "coefficient"), self.number(motion, "radius"))]
 
@@ -495,7 +486,7 @@ class PinFriction(ForceElement):
 
 
 @immutable
-class GuideFriction(ForceElement):
+class GuideFriction(LawElement):
     """Friction of a point on the guides and slots it runs on: coefficient * normal force, against the relative sliding.
 
     Parameters
@@ -525,9 +516,6 @@ class GuideFriction(ForceElement):
 
     def words(self) -> list[str]:
         return [f"guide={label(self.guide)}" if word.startswith("guide=") else word for word in super().words()]
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
 
     def frictions(self, motion: Poses) -> list[Friction]:
         return [Friction(name_of(self.point), self.number(motion, "coefficient"), guide=name_of(self.guide))]

@@ -22,14 +22,14 @@ from ..errors import DefinitionError, cited, is_number
 from ..frozen import immutable
 from ..quantities import Axes, Member, Number, Quantity, Reference, Where, label, name_of
 from ..vectors import Scalar, Side, Vec
-from .element import Array, ForceElement, Glyph, Load, Parameter, Poses
+from .element import Array, Glyph, LawElement, Load, Parameter, Poses
 
 WIDEST = 10.0
 """m; the radius of a larger pulley was given in millimetres."""
 
 
 @immutable
-class Pulley(ForceElement):
+class Pulley(LawElement):
     """A pulley that turns freely about a point, for a Rope: `sheave = Pulley(B, radius=80 * mm, side=LEFT)`.
 
     Parameters
@@ -65,9 +65,6 @@ class Pulley(ForceElement):
     def sense(self) -> float:
         """1 where the rope turns left around it, else -1."""
         return float(self.side)
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return []
 
     @property
     def scales(self) -> bool:

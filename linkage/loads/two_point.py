@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError, can_be_called, cited, ensure, errors_of
 from ..frozen import immutable
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
-from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates, by_speeds
+from .element import AT_REST, Array, Formulas, Glyph, LawElement, Parameter, Poses, Push, Rate, Rates, by_speeds, refuse_coincidence
 
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
@@ -36,7 +36,7 @@ class Halves:
     kinds: tuple[str, str]
 
 
-class TwoPoint(ForceElement):
+class TwoPoint(LawElement):
     """The base of straight elements from A to B. A subclass is a frozen dataclass with A and B, and says `push`.
 
     `drawn_as` is what pictures show: a plain thin strut unless it says otherwise.
@@ -131,29 +131,6 @@ class TwoPoint(ForceElement):
         found = Push(self, cast(Array, thrust))
         refuse_coincidence(found, length)
         return [found]
-
-    def loads(self, motion: Poses) -> list[Load]:
-        return self.moving(motion, AT_REST)
-
-    @by_speeds
-    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
-        return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
-
-
-def end_forces(push: Push, motion: Poses) -> list[Load]:
-    """Return the forces of a two-point member on the points at its ends [N]; DefinitionError where they coincide while it pushes."""
-    A, B = push.member.ends
-    arm, length = motion[B] - motion[A], motion.distance(A, B)
-    refuse_coincidence(push, length)
-    force = arm / np.where(length == 0.0, 1.0, length) * push.thrust
-    return [Load(A, -force), Load(B, force)]
-
-
-def refuse_coincidence(push: Push, length: Array) -> None:
-    """Raise DefinitionError where the ends of a two-point member coincide while it pushes or pulls."""
-    if np.any((length == 0.0) & (push.thrust != 0.0)):
-        what = f"{push.member.name} = {push.member}" if push.member.name else str(push.member)
-        raise DefinitionError(f"{what}: its ends coincide at some poses and give no direction; move one of them.")
 
 
 @immutable

@@ -777,7 +777,7 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     def __repr__(self) -> str:
         changed = {name: value for name, value in self._values.items() if np.ndim(value) or value != self.plan.table.entries[name].default}
-        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
+        return f"{type(self).__name__}({keywords({name: repr(value) for name, value in changed.items()})})"
 
 
 for _name, _method in [*vars(Mechanism).items()]:

@@ -15,7 +15,7 @@ from ..frozen import FrozenDict
 from ..quantities import FRAME_AXES, Axes, Coordinate, Dimension, Operand, Quantity, Ref, Stroke, Variable, is_number, label, quantity
 from ..quantities import source_text as written
 from ..quantities.axes import is_nothing
-from ..quantities.member import Member, Reference, is_member_or_name, name_of, needs, of_kind, word_arguments
+from ..quantities.member import Member, Reference, is_member_or_name, keywords, name_of, needs, of_kind, word_arguments
 from ..steps import Arrow, Drawn, Group, Link, Point, Step
 from ..steps.labels import Spoken
 from ..units import require_measure
@@ -226,10 +226,9 @@ class Part(Member):
         words = [self.plan.title, *(f"{name}={given_text(value)}" for name, value in self.given.items() if name.isidentifier())]
         if self.on:
             words.append(f"on={label(self.on[0])}" if len(self.on) == 1 else f"on=({', '.join(map(label, self.on))})")
-        words += filter(None, [str(Axes(at=self.at, angle=self.angle, mirrored=self.mirrored))])
-        dotted = {name: value for name, value in self.given.items() if not name.isidentifier()}
-        more = [f"**{{{', '.join(f'{name!r}: {given_text(value)}' for name, value in dotted.items())}}}"] if dotted else []
-        return f"Part({', '.join([*words, *more])})"
+        dotted = keywords({name: given_text(value) for name, value in self.given.items() if not name.isidentifier()})
+        words += filter(None, [str(Axes(at=self.at, angle=self.angle, mirrored=self.mirrored)), dotted])
+        return f"Part({', '.join(words)})"
 
 
 class HeldName(str):

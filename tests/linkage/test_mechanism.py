@@ -104,7 +104,8 @@ def test_variants_of_variants():
 def test_settings_are_kept_and_read_by_any_spelling():
     design = Arm(BO=0.31, O=(0.3, 1.12), GOB=-0.4)
     assert (design["OB"], design["O"].tolist(), design["BOG"], design["O.y"]) == (0.31, [0.3, 1.12], 0.4, 1.12)
-    assert repr(design) == "Arm(O.y=1.12, OB=0.31, BOG=0.4)"
+    assert repr(design) == "Arm(OB=0.31, BOG=0.4, **{'O.y': 1.12})"
+    assert eval(repr(design), {"Arm": Arm}).dimensions == design.dimensions
 
 
 def test_replaced_keeps_what_was_set():

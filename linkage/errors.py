@@ -248,15 +248,17 @@ FIELD_WORDS = {
 
 def did_you_mean(name: object, names: Sequence[str]) -> str:
     """Return " Did you mean ...?" with the nearest of some names, of the same member first; "" where none is near."""
-    whose, _, word = name.rpartition(".") if isinstance(name, str) else ("", "", "")
+    if not isinstance(name, str):
+        return ""
+    whose, _, word = name.rpartition(".")
     other = [own for own, words in FIELD_WORDS.items() if word.lower() in words.split()]
     near = [each for own in other for each in names if each.replace(" ", "_") in (own, f"{whose}.{own}")]
     near = near or [each for own in other for each in names if each.rpartition(".")[2] == own][:3]
-    if isinstance(name, str) and not near:
-        own = [each for each in names if whose and each.startswith(f"{whose}.")]  # a member that is there: which of its own is it?
-        near = [f"{whose}.{each}" for each in get_close_matches(word, [each[len(whose) + 1 :] for each in own], n=1, cutoff=0.5)]
-        near = near if own else get_close_matches(name, names, n=1, cutoff=0.5)
-    if isinstance(name, str) and not near:  # a word of longer names
+    if not near:  # of a member that is there, one of its own
+        own = {each: each.removeprefix(f"{whose}.") for each in names if whose and each.startswith(f"{whose}.")}
+        close = get_close_matches(word if own else name, [*own.values()] or names, n=1, cutoff=0.5)
+        near = [f"{whose}.{each}" for each in close] if own else close
+    if not near:  # a word of longer names
         words = get_close_matches(name, {word for each in names for word in each.split("_")}, n=1, cutoff=0.8)
         near = [each for each in names if {*each.split("_")} & {*words}][:3]
     return f" Did you mean {' or '.join(near)}?" if near else ""

@@ -12,10 +12,9 @@ import numpy as np
 from ..errors import LinkageError, unwarned
 from ..language import said
 from ..motion import Motion
-from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, distance
 from .content import Mark, Section, TableBlock
-from .run import ReportSubject
+from .run import ReportSubject, largest
 
 EXACT = 1e-9
 """The bound of what rounding alone may leave, relative."""
@@ -91,8 +90,8 @@ def positions_kept(motion: Motion) -> Iterator[Check]:
     worst, longest = 0.0 if lengths else np.nan, 0.0
     for pair, quantity in lengths.items():
         length = np.broadcast_to(motion.value(quantity), motion.shape)
-        worst = max(worst, largest_finite(np.abs(motion.distance(*sorted(pair)) - length)))
-        longest = max(longest, largest_finite(np.abs(length)))
+        worst = max(worst, largest(motion.distance(*sorted(pair)) - length))
+        longest = max(longest, largest(length))
     what = said("distances of the pins as placed, against the given lengths: {n} of them", n=len(lengths))
     yield Check(said("lengths kept"), what, worst / (longest or 1.0), EXACT)
 
@@ -106,16 +105,11 @@ def positions_kept(motion: Motion) -> Iterator[Check]:
         for side in pairwise([*loop, loop[0]]):
             angle = motion.angle(*side)
             vectors.append(np.asarray(motion.value(given[frozenset(side)]) * np.array([np.cos(angle), np.sin(angle)])))
-        worst = max(worst, largest_finite(np.hypot(*np.sum(vectors, axis=0))))
-        longest = max(longest, *(largest_finite(np.hypot(*each)) for each in vectors))
+        worst = max(worst, largest(np.hypot(*np.sum(vectors, axis=0))))
+        longest = max(longest, *(largest(np.hypot(*each)) for each in vectors))
     if loops:
         what = said("given lengths in the directions of the links, summed round the closed loops: {n} of them", n=len(loops))
         yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
-
-
-def largest_finite(values: FloatArray) -> float:
-    """Return the largest of some values that are not negative, 0 where there is none."""
-    return float(np.max(np.where(np.isnan(values), 0.0, values), initial=0.0))
 
 
 def closed_walks(pairs: Iterable[tuple[str, str]]) -> Iterator[list[str]]:
@@ -148,7 +142,7 @@ def derivatives(subject: ReportSubject) -> Check:
             exact, central = (motion.ratio(name, wrt=stroke, method=way) for way in ("exact", "central"))
         except LinkageError:
             continue
-        found.append((largest_finite(np.abs(exact - central)), largest_finite(np.abs(exact))))
+        found.append((largest(exact - central), largest(exact)))
     far = max((size for _, size in found), default=0.0) or 1.0  # what does not move at all is compared with what does
     worst, targets = max((miss / (size if size > 1e-6 * far else far) for miss, size in found), default=0.0), len(found)
     what = said(

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..errors import LinkageError, ensure, unwarned
 from ..language import noted, said, translated
 from ..loads import PLAIN_CASE, Acting, Force, TwoPoint
-from ..motion import Column, Motion, Request, least, most, places_text, stroke_unit
+from ..motion import Column, Motion, Request, drive_kind, least, most, places_text, stroke_unit
 from ..plan import Plan
 from ..plan.members import FRAME
 from ..program import FloatArray
@@ -32,7 +32,7 @@ from ..units import factor, shown_in, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Section, TableBlock
 from .outcome import amount_text, figures
-from .run import ReportSubject
+from .run import ReportSubject, largest
 
 KINDS = (noted("pin"), noted("guide"), noted("slot"), noted("driven point"), noted("crank's drive"), noted("slider"), noted("telescope"))
 DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), noted("as it runs"), noted("own loads"))
@@ -129,7 +129,7 @@ def thrusts_shown(subject: ReportSubject) -> dict[str, Request]:
 def drives_asked(subject: ReportSubject) -> list[tuple[str, Request, str]]:
     """Return the forces of the drives, then the thrusts that no member shows of itself, each with its name and unit."""
     one, plan, members = subject.forces[0], subject.machine.plan, thrusts_shown(subject)
-    drives = [(name, drive_force(name), "kN" if stroke_unit(plan, name) == "m" else "Nm") for name in one.drives]
+    drives = [(name, drive_force(name), drive_kind(plan, name)[1]) for name in one.drives]
     others = [(said("thrust of {name}", name=name), thrust_from_forces(name), "kN") for name in one.thrusts if name not in members]
     return [*drives, *others]
 
@@ -300,9 +300,7 @@ class Stop:
         """Return the stop's force [N], its way (2, ...), and whose relief valve opens first; NaN where none does."""
         parts = np.array([each.thrusts[cylinder] for each in self.units])
         answers = np.hypot(*parts)  # the thrust that a unit force along the point's way asks for
-        finite = answers[np.isfinite(answers)]
-        far = float(np.max(finite, initial=0.0))
-        way = (1.0 if pushes else -1.0) * parts / np.where(answers > STILL * far, answers, np.nan)
+        way = (1.0 if pushes else -1.0) * parts / np.where(answers > STILL * largest(answers), answers, np.nan)
         least, opens = np.full(answers.shape, np.inf), np.full(answers.shape, cylinder, dtype=object)
         for name, (low, high) in self.bounds.items():
             grows = sum(along * each.thrusts[name] for along, each in zip(way, self.units, strict=True))

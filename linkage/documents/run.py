@@ -30,15 +30,21 @@ MANY = 2001
 """Rows of a table that one would still print."""
 FIGURES = 4
 CLOSE = 1e-9
-"""Of the greatest value: columns that differ by no more are one curve."""
+"""Of a column's greatest value: columns that differ by no more are one curve, and a limit of which no more is missing is kept."""
 
 
 def same_curve(one: Column, other: Column) -> bool:
     """Return whether two columns measure the same and have the same values."""
     kinds = {UNITS[each.unit][1] if each.unit else "" for each in (one, other)}
     first, second = (np.asarray(each.values, float) for each in (one, other))
-    size = float(np.max(np.abs(first[np.isfinite(first)]), initial=0.0))
+    size = largest(first)
     return len(kinds) == 1 and size > 0.0 and bool(np.allclose(first, second, rtol=CLOSE, atol=CLOSE * size, equal_nan=True))
+
+
+def largest(values: object) -> float:
+    """Return the largest size of the finite ones of some values; 0 without any."""
+    sizes = np.abs(np.asarray(values, float))
+    return float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
 
 
 @dataclass(frozen=True, eq=False)

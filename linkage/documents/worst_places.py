@@ -21,7 +21,7 @@ from ..units import display_unit, rounded_up, show, shown_number, unit_sign
 from ..verdict import Verdict
 from .content import Mark, Section, TableBlock
 from .outcome import amount_text
-from .run import ReportSubject
+from .run import CLOSE, ReportSubject, largest
 
 
 def verdict_section(subject: ReportSubject, limits: Mapping[str, Sequence[object]]) -> tuple[Section, Mark, Sequence[Verdict], str]:
@@ -67,8 +67,6 @@ def verdict_mark(ok: bool | None) -> Mark:
 
 MOST_PLACES = 10
 """Rows of the table of the worst places."""
-CLOSE = 1e-9
-"""Of a column's largest value: its limit is kept where no more is missing."""
 
 
 class JudgedRow(NamedTuple):
@@ -97,14 +95,9 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[object]]
         judge = subject.machine.judge(plain, subject.judge.acting).lost_allowed()
         answers |= zip(own, judge.answers([asked[name] for name in own]), strict=True)
     for name, each in answers.items():  # what is missed by the rounding of the column's own numbers is kept, as verdicts have it
-        if each.ok is False and name in columns and abs(each.value - limit_of(limits[name]).value) <= CLOSE * largest(columns[name]):
+        if each.ok is False and name in columns and abs(each.value - limit_of(limits[name]).value) <= CLOSE * largest(columns[name].values):
             answers[name] = replace(each, ok=True)
     return [JudgedRow(heading_of(name), each.ok, each, used(each), columns.get(name)) for name, each in answers.items()]
-
-
-def largest(column: Column) -> float:
-    """Return the largest size of a column's finite values."""
-    return float(np.max(np.abs(column.values), initial=0.0, where=np.isfinite(column.values)))
 
 
 def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:

@@ -131,24 +131,23 @@ class Csv(Exporter):
     batches = True
 
     def content(self, job: ExportJob) -> bytes:
-        motion, table, labels = self.poses(job), list(job.columns), list[str]()
-        if runs := declared_motions(job):
-            tables = [(run_words(job.machine, run), results(job.machine, each, run.case or PLAIN_CASE)) for run, each in runs]
-            joined, labels = joined_tables(tables)
-            table = [*joined]
-        elif not table and isinstance(job.what, Mechanism):
-            table = results(job.what, motion)
-        elif not table:  # in time with the strokes' rates and accelerations, of one design over an `Over` with its results
-            table = columns_of(motion)
-            along = len(motion.strokes) + (motion.time is not None)
-            table[along:along] = rate_columns(motion)
-            if motion.is_swept and not motion._design_shape:
-                with suppress(DefinitionError):  # a class that is not there any more has no table of its own
-                    table += results(played_along(motion, None)[0], motion)
-            table = [*{each.name: each for each in table}.values()]
+        along = [(run_words(job.machine, run), results(job.machine, each, run.case or PLAIN_CASE)) for run, each in declared_motions(job)]
+        columns, labels = joined_tables(along or [("", job.columns or self.columns(job))])
         stream = io.StringIO(newline="")
-        write_csv(table, stream, labels=labels)
+        write_csv(columns, stream, labels=labels)
         return stream.getvalue().encode("utf-8")
+
+    def columns(self, job: ExportJob) -> list[Column]:
+        """Return the columns of a machine over its strokes; of a motion in time the rates too, of one over an `Over` its results."""
+        motion = self.poses(job)
+        if isinstance(job.what, Mechanism):
+            return results(job.what, motion)
+        table, along = columns_of(motion), len(motion.strokes) + (motion.time is not None)
+        table[along:along] = rate_columns(motion)
+        if motion.is_swept and not motion._design_shape:
+            with suppress(DefinitionError):  # a class that is not there any more has no table of its own
+                table += results(played_along(motion, None)[0], motion)
+        return [*{each.name: each for each in table}.values()]
 
     def poses(self, job: ExportJob) -> Motion:
         runs = [motion for _, motion in declared_motions(job)]
@@ -160,7 +159,9 @@ class Csv(Exporter):
 def declared_motions(job: ExportJob) -> list[tuple[Run, Motion]]:
     """Return the runs along the `Over`s of a design, each with its poses. Motions, strokes that are given and batches have no such runs."""
     machine, shares = job.what, np.linspace(0.0, 1.0, job.count)
-    if not isinstance(machine, Mechanism) or job.at or not machine.plan.of_kind(Over) or any(map(np.ndim, machine.dimensions.values())):
+    if not isinstance(machine, Mechanism) or job.at or job.columns or not machine.plan.of_kind(Over):
+        return []
+    if any(map(np.ndim, machine.dimensions.values())):
         return []
     found = list[tuple[Run, Motion]]()
     for run in runs_of(machine):

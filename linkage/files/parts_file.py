@@ -13,11 +13,11 @@ from .. import plugins
 from ..errors import DefinitionError, is_class_of, require, require_type, unknown
 from ..mechanism import Mechanism
 from ..plan import Part
-from ..quantities import Member, is_member_or_name, is_nothing, label, name_of, quantity
+from ..quantities import Member, is_member_or_name, is_nothing, label, quantity
 from ..steps import Point
 from .design import Design, degrees_text
 from .source import Keywords, Names, by_whole_names
-from .validators import Read, coordinates_of, points_of, quantity_of, switch_of
+from .validators import Read, coordinates_of, points_of, quantity_of, switch_of, written_names
 
 OWN_KEYS: Mapping[str, Read] = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
 """What a part has beside its machine and the members that it is given, each with what reads it."""
@@ -73,8 +73,7 @@ def part_written(member: Part, design: Design) -> Keywords:
         else:
             found[name] = design.scalar(quantity(value))
     if member.on:
-        names = [name_of(each) for each in member.on]
-        found["on"] = names[0] if len(names) == 1 else names
+        found["on"] = written_names(member.on, design, "on")
     if not all(map(is_nothing, member.at)):
         found["at"] = [design.scalar(each) for each in member.at]
     if not is_nothing(member.angle):

@@ -14,7 +14,7 @@ from ..files.criterion import REQUESTS, request_function
 from ..language import noted, said
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement
 from ..mechanism import Mechanism, played_along, require_mechanism
-from ..motion import Answer, Column, Motion, Over, Tabled, columns_of, least, most, require_motion, speakers, stroke_unit
+from ..motion import Answer, Column, Motion, Over, Tabled, columns_of, drive_kind, least, most, require_motion, speakers, stroke_unit
 from ..motion.judge import Domain, rubs
 from ..motion.measures import MeasuredQuantity
 from ..motion.requests import AnyRequest, may_be_unlimited, situated
@@ -183,10 +183,10 @@ def is_loaded(motion: Motion) -> bool:
 
 
 def drive_columns(motion: Motion, case: Case = None, direction: str | None = None) -> Iterator[Column]:
-    """Yield the generalised force of each stroke under the machine's own loads: of a length [N], of an angle [Nm]."""
+    """Yield the generalised force of each stroke under the machine's own loads: of a length [N], of an angle [Nm], of oil [Pa]."""
     for name in motion.strokes:
         what = noted("torque") if stroke_unit(motion.plan, name) == "rad" else noted("drive force")
-        unit = "kN" if stroke_unit(motion.plan, name) == "m" else "Nm"
+        unit = drive_kind(motion.plan, name)[1]
         force = driving_force(motion, drive=name, case=case, direction=direction)
         title, digits = what if len(motion.strokes) == 1 else f"{what} {name}", 2 if unit == "Nm" else 4
         yield Column(title, force, unit, digits, request=drive_force(name, case=case) if direction is None else None)

@@ -102,8 +102,7 @@ class DrawingReader:
                 if len(keys) == 2:
                     self.drive(role, keys[0], keys[1])
                 else:
-                    what = f"a line of the layer {each.dxf.layer} that ends at {len(keys)} pins instead of two"
-                    self.found.left_out.append(f"{what}{self.loose_ends(each)}")
+                    self.leave_out(each, "a line", f"that ends at {len(keys)} pins instead of two")
 
     def read_links(self) -> None:
         """Enter the links, and tell which lines are none."""
@@ -118,8 +117,7 @@ class DrawingReader:
         for each, keys in met:
             if len(keys) < 2 and not any(each is edge for edge in joined):
                 kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
-                what = f"{kind} of the layer {each.dxf.layer} with {len(keys)} pins"
-                self.found.left_out.append(f"{what}{self.loose_ends(each)}")
+                self.leave_out(each, kind, f"with {len(keys)} pins")
         for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
             wider = next((other for other in bodies if {*keys} < {*other}), None)
             if wider is not None:
@@ -172,12 +170,13 @@ class DrawingReader:
         """Return whether a line ends where it begins, as an outline does."""
         return len(corners) > 3 and dist(corners[0], corners[-1]) <= MEETS * self.found.size
 
-    def loose_ends(self, entity: Any) -> str:
-        """Return in words where a line ends off each pin; nothing where it ends on pins."""
+    def leave_out(self, entity: Any, kind: str, why: str) -> None:
+        """Tell which line is left out and why, and where it ends off each pin."""
         corners = corners_of(entity)
         ends = dict.fromkeys([*corners[:1], *corners[-1:]])
         places = [f"({x:.6g}, {y:.6g})" for x, y in ends if not self.met([(x, y), (x, y)])]
-        return f": no pin at {' and '.join(places)}" if places else ""
+        ends_off = f": no pin at {' and '.join(places)}" if places else ""
+        self.found.left_out.append(f"{kind} of the layer {entity.dxf.layer} {why}{ends_off}")
 
     def drive(self, role: str, P: str, Q: str) -> None:
         """Enter a drive between two pins; a crank turns about the fixed one, and brings its own link."""

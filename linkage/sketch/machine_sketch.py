@@ -313,36 +313,29 @@ class MachineSketch:
         """
         ensure(isfinite(step) and step > 0.0, f"{self.name}: lengths are rounded to {step!r}; give a length above zero, such as 1mm.")
         bodies = *self.links.values(), *(each.ends for each in self.drives.values())
-        pairs = [
-            (points[0], each) for points in bodies for each in points[1:]
-        ]  # from the first point: so angles stay, a flat body does not bend
+        pairs = [(points[0], each) for points in bodies for each in points[1:]]  # from the first point: so a flat body does not bend
         free = [pair for pair in pairs if not {*pair} <= {*self.fixed}]
-        lengths = {joined_names(P, Q): round(self.length(P, Q) / step) * step for P, Q in free}
+        lengths = {joined_names(P, Q): in_steps(self.length(P, Q), step) for P, Q in free}
         for drive in self.drives.values():
             if drive.kind == "cylinder":
-                lengths[joined_names(*drive.ends)] = round((self.length(*drive.ends) - drive.drawn) / step) * step
+                lengths[joined_names(*drive.ends)] = in_steps(self.length(*drive.ends) - drive.drawn, step)
         for label, value in lengths.items():
             ensure(value > 0.0, f"{self.name}: {label} rounds to nothing in steps of {show(step, 'mm')}; take a finer step.")
         places = dict(self.points)
         corners = [(points[0], points[1], each) for points in self.links.values() for each in points[2:] if not {*points} <= {*self.fixed}]
-        turns = {joined_names(P, O, Q): line_angle(places[O], places[Q]) - line_angle(places[O], places[P]) for O, P, Q in corners}
-        arms = {joined_names(P, O, Q): self.length(O, Q) for O, P, Q in corners}
-        angles = {label: round_angle(remainder(turn, 2.0 * pi), step / arms[label]) for label, turn in turns.items()}
+        angles = dict[str, float]()
+        for O, P, Q in corners:
+            turn = remainder(line_angle(places[O], places[Q]) - line_angle(places[O], places[P]), 2.0 * pi)
+            angles[joined_names(P, O, Q)] = round_angle(turn, step / self.length(O, Q))
         slides, rounds = dict(self.slides), [*self.fixed]
         for name, each in self.slides.items():
             if not isinstance(each.along, tuple):
                 slides[name] = replace(each, along=round_angle(each.along, step / self.size))
                 rounds.append(each.point)
         for name in rounds:
-            x, y = (clean(round(each / step) * step) for each in places[name])
+            x, y = (in_steps(each, step) for each in places[name])
             places[name] = x, y
-        put = replace(
-            self,
-            points=places,
-            lengths={label: clean(value) for label, value in lengths.items()},
-            angles=angles,
-            slides=slides,
-        )
+        put = replace(self, points=places, lengths=lengths, angles=angles, slides=slides)
         strokes: dict[str, Any] = {name: drive.drawn for name, drive in self.drives.items()}
         motion = put.to_class()().at(**strokes)
         settled = {name: (float(motion.x(name)), float(motion.y(name))) for name in self.points}
@@ -366,12 +359,12 @@ def line_angle(P: Place, Q: Place) -> float:
 def round_angle(angle: float, least: float) -> float:
     """Return an angle in whole degrees, or tenths, hundredths ... of one, the first that are finer than a least angle [rad]."""
     step = 10.0 ** min(0, floor(log10(degrees(least))))
-    return radians(clean(round(degrees(angle) / step) * step))
+    return radians(in_steps(degrees(angle), step))
 
 
-def clean(value: float) -> float:
-    """Return a length without the last digits that a multiple of a decimal step brings [m]."""
-    return float(f"{value:.12g}")
+def in_steps(value: float, step: float) -> float:
+    """Return the multiple of a step that is nearest to a value, without the last digits that one of a decimal step brings."""
+    return float(f"{round(value / step) * step:.12g}")
 
 
 def written(value: float) -> str:

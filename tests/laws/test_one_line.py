@@ -61,6 +61,7 @@ from linkage.formulas import equations
 from linkage.loads import ForceElement
 from linkage.motion import least, most
 from linkage.quantities import label
+from linkage.reports.results import drive_columns
 from linkage.statics import pulling
 from linkage.statics.carried import LoadAt
 from linkage.units import bar, deg, kN, litre
@@ -328,6 +329,7 @@ def test_a_stroke_that_is_a_lines_oil_is_a_volume_that_a_pressure_drives():
         machine = made(base=Mechanism, oil=Stroke(0.0, 1e-3), ram=ram, line=line, load=Force("P", (0.0, -10 * kN)), **lifted)()
         told = f"{10 * kN / AREA / bar:.6g} bar"
         assert f"oil: {told}\n" in str(pin_forces(machine.sweep(3)))
+        assert [each.unit for each in drive_columns(machine.sweep(3))] == ["bar"]
         assert str(machine.answers([most(drive_force("oil"))])[0]) == f"{told} at oil = 0.000 l"
         assert_allclose(machine.answers([most(pressure("line"))])[0].value, 10 * kN / AREA)
         assert str(machine.verdicts()[0]) == "ok   assembly: it is assembled over oil = 0 to 1 l."

@@ -400,6 +400,7 @@ def test_a_table_is_that_of_the_command(tmp_path):
         assert path.read_bytes() == (tmp_path / "command.csv").read_bytes()
     assert path.read_text().startswith("run,") and len(path.read_text().splitlines()) == 23
     assert len(export(machine(), path, at={"a": 0.2}, count=5).read_text().splitlines()) == 6
+    assert export(machine(), path, columns=[Column("I", np.ones(2))]).read_text().splitlines() == ["I", "1.0", "1.0"]
 
 
 def test_a_motion_as_a_table_keeps_all_digits(tmp_path):

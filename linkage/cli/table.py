@@ -229,6 +229,6 @@ def limits_command(options: Namespace) -> int:
     ensure(machine.strokes, f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
     motion = machine.at(unreachable="nan", **settings.poses_at(machine, options))
     over = settings.judged_over(machine, options)
-    print(limits_over(motion, settings.overs_of(machine, options.over) or [Over()]))
+    print(limits_over(motion, settings.overs_of(machine, options.over) or machine.overs))
     print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}", *machine.four_bars, sep="\n")
     return settings.print_verdicts(geometry_verdicts(machine.judge(over)), options) if options.check else 0

@@ -15,7 +15,7 @@ from ..language import heading_of, said, translated
 from ..loads import PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Answer, Column, Measure, Motion, Request, Tabled, judged_poses, least, most, places_text, speakers, transmission
-from ..motion.limits import StrokeLimits, angle_text
+from ..motion.limits import StrokeLimits, angle_text, unstopped_words
 from ..motion.measures import Least, Most
 from ..motion.requests import may_be_unlimited
 from ..pictures import mechanism
@@ -418,7 +418,9 @@ def limit_rows(limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:
         return places_text({name: value}, {name: limits.unit})
 
     for part in limits.intervals:
-        yield name, said("reachable"), said("from {start} to {end}", start=place(part.low), end=place(part.high))
+        ends = (part.low, part.low_stop), (part.high, part.high_stop)
+        start, end = (place(value) + unstopped_words(limits.unit, part, stop) for value, stop in ends)
+        yield name, said("reachable"), said("from {start} to {end}", start=start, end=end)
     for value, step in limits.dead_points:
         yield name, said("dead point of {step}, the motion ends", step=step), place(value)
     for value, step in limits.change_points:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import floor, log10, nan
+from math import floor, log10, nan, pi
 from typing import Any
 
 import numpy as np
@@ -54,14 +54,14 @@ class StrokeLimits:
         for each in self.intervals:
             ends = (each.low, each.low_stop), (each.high, each.high_stop)
             if each.low_stop or each.high_stop:
-                low, high = (stroke_number(value, self.unit) + ("" if stop else said(" (looked no farther)")) for value, stop in ends)
+                low, high = (stroke_number(value, self.unit) + unstopped_words(self.unit, each, stop) for value, stop in ends)
                 sign = unit_sign(self.shown_unit)
                 lines.append(f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign).rstrip()}")
                 stops = [(stroke_number(value, self.unit), said("dead point of {step}", step=stop)) for value, stop in ends if stop]
                 lines += [f"    {value}: {text}" for value, text in stops]
             else:
                 low, high = stroke_number(each.low, self.unit), stroke_text(each.high, self.unit)
-                lines.append(f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}")
+                lines.append(f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}{unstopped_words(self.unit, each)}")
         for value, step in self.change_points:
             place = stroke_text(value, self.unit)
             lines.append("  " + said("change point at {place}: the branches of {step} cross", place=place, step=step))
@@ -177,6 +177,11 @@ class Interval:
 
     def __contains__(self, value: float) -> bool:
         return self.low <= value <= self.high
+
+
+def unstopped_words(unit: str, part: Interval, stop: str = "") -> str:
+    """Return what stands behind an end of a range that nothing stops: no farther was looked, but of a whole turn."""
+    return "" if stop or (unit == "rad" and part.high - part.low > 2.0 * pi - 1e-9) else said(" (looked no farther)")
 
 
 def angle_text(angle: float, digits: int) -> str:

@@ -287,14 +287,22 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
         text = said("over {spans} {share} cannot be assembled, deepest {place}: {why}", spans=spans, **deepest).rstrip(".")
         remedy = said('what follows holds for the rest. Shorten a stroke, or declare Over(..., lost="allowed").')
         text = said("{lost}; its Over allows that.", lost=text) if ok else f"{text}; {remedy}"
-    beyond = list[str]()
+    beyond, scarcely = list[str](), list[str]()
     for name, stroke in judge.plan.strokes.items():
         low, high = sorted((stroke.start, stroke.end))
         run, room = np.concatenate([np.ravel(place.motion.strokes[name]) for place in judge.places]), 1e-3 * (high - low)
         if np.any((run < low - room) | (run > high + room)):
             beyond.append(f"{name} = {span_text([low, high], stroke_unit(judge.plan, name))}")
+        elif 0.0 < np.ptp(run) < SCARCELY * (high - low):
+            scarcely.append(f"{name} = {span_text([low, high], stroke_unit(judge.plan, name))}")
     text = f"{text} {said('It runs beyond the declared {strokes}.', strokes=', '.join(beyond))}" if beyond else text
+    if scarcely:
+        text += " " + said("Of the declared {strokes} it runs less than 1 %: are lengths in m, angles in rad?", strokes=", ".join(scarcely))
     return [Verdict("assembly", ok, text, answer=answer)]
+
+
+SCARCELY = 0.01
+"""Of a declared stroke: where no more of it runs, a unit may be missing there."""
 
 
 def nearest_dead_points(plan: Plan, limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:

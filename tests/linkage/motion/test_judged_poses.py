@@ -113,3 +113,13 @@ def test_what_runs_beyond_its_stroke_says_so():
 
     assert Far().verdicts()[0].sentence.endswith("slide = 0 to 2001 mm. It runs beyond the declared alpha = 0 to 90 deg.")
     assert "beyond" not in Near().verdicts()[0].sentence
+
+
+def test_what_runs_next_to_nothing_of_a_declared_stroke_says_so():
+    class Metres(Reach):
+        slide = Stroke(0.0, 500)  # in mm, as it was meant
+        near = Over(alpha=(0.0, 90 * deg), beta=0.0, slide=(0.0, 0.4))
+
+    told = "Of the declared slide = 0 to 500000 mm it runs less than 1 %: are lengths in m, angles in rad?"
+    assert Metres().verdicts()[0].sentence.endswith(told)
+    assert "declared" not in Reach().verdicts()[0].sentence

@@ -26,7 +26,7 @@ from linkage.quantities.member import in_class
 from linkage.statics import AnyMotion, LawRequest, each_once, same
 from linkage.units import show
 
-from .cylinders import PISTON, ROD, OnLines, Ram, cylinder_request, line_thrust, lines_of
+from .cylinders import PISTON, ROD, OnLines, Ram, by_other_lines, cylinder_request, line_thrust, lines_of
 from .inputs import Array, one_design
 from .lifting_line import LiftLine
 from .valve import HoldingValve
@@ -162,6 +162,7 @@ class Consumers:
             asked.append(distance(ram.A, ram.B))
             asked += [ratio(distance(ram.A, ram.B), name) for name in self.strokes]
             asked += [area_request(ram, side) for side in (PISTON, ROD)]
+            asked.append(cylinder_request("tank force", ram.name, acting, force_of_tanks, measures="force"))
         there = Motion(plan, designs, {name: np.asarray(strokes[name]) for name in self.strokes}, "nan")
         on = [(line, ram) for line in self.lines for ram in line.members(self.members)]
         self.inlets = [self._inlet(line, ram, sense, there) for line, ram in on for sense in (1.0, -1.0)]
@@ -214,8 +215,8 @@ class Consumers:
     def consumption_of(self, rows: Array, ways: Sequence[Array], like: Consumption | None = None) -> Consumption:
         """Return the same from rows that the machine has given."""
         count, many = len(self.strokes), rows.shape[1]
-        each_of = rows[: len(self.rams) * (count + 4)].reshape(len(self.rams), count + 4, many)
-        pilots = dict(zip(map(id, self.valved), rows[len(self.rams) * (count + 4) :], strict=True))
+        each_of = rows[: len(self.rams) * (count + 5)].reshape(len(self.rams), count + 5, many)
+        pilots = dict(zip(map(id, self.valved), rows[len(self.rams) * (count + 5) :], strict=True))
         slopes = each_of[:, 2 : count + 2]
         speeds = [(slopes * way).sum(axis=1) for way in ways]
         if like is None:
@@ -236,9 +237,9 @@ class Consumers:
         found = list[Branch]()
         for inlet in inlets:
             place = self.places[id(inlet.ram)]
-            thrust, areas = each_of[place, 0], each_of[place, -2:]
-            force, speed = inlet.sense * thrust, inlet.sense * speeds[place]
-            force = np.where(force > 0.0, force / inlet.mechanical, force * inlet.mechanical)
+            thrust, areas, tanks = each_of[place, 0], each_of[place, -3:-1], inlet.sense * each_of[place, -1]
+            force, speed = inlet.sense * thrust + tanks, inlet.sense * speeds[place]
+            force = np.where(force > 0.0, force / inlet.mechanical, force * inlet.mechanical) - tanks
             if inlet.sides is None:
                 nothing = np.zeros(len(force))
                 found.append(Branch(inlet, nothing, nothing, force, force, speed))
@@ -273,6 +274,11 @@ def lines_on(pump: ForceElement, members: NamedMembers) -> list[LiftLine]:
 def force_on_lines(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
     """Return the force of a cylinder less the parts of its lines with a given pressure [N]."""
     return line_thrust(ram, None, motion, acting)
+
+
+def force_of_tanks(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
+    """Return the thrust of tanks on a cylinder [N], on which the pump's mechanical efficiency does not count."""
+    return by_other_lines(ram, None, motion, acting, True) + 0.0 * motion.distance(ram.A, ram.B)
 
 
 def area_request(ram: Ram, side: str) -> LawRequest:

@@ -61,7 +61,8 @@ class StrokeLimits:
                 lines += [f"    {value}: {text}" for value, text in stops]
             else:
                 low, high = stroke_number(each.low, self.unit), stroke_text(each.high, self.unit)
-                lines.append(f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}{unstopped_words(self.unit, each)}")
+                whole = said("reachable all the way from {low} to {high}", low=low, high=high)
+                lines.append(f"  {whole}{unstopped_words(self.unit, each)}")
         for value, step in self.change_points:
             place = stroke_text(value, self.unit)
             lines.append("  " + said("change point at {place}: the branches of {step} cross", place=place, step=step))

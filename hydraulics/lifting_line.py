@@ -667,6 +667,8 @@ class LiftLine(Circuit):
 
         def carried(load: Array) -> Array:
             """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
+            if ram.goes(motion, beside(load)) is not None:  # over a path in time it goes one way at each pose
+                return sense * pump_thrust(motion, ram, beside(load))
             ways = [beside(load).towards(way) for way in ("extending", "retracting")]
             out, back = (pump_thrust(motion, ram, way) for way in ways)
             return np.where(sense > 0.0, out, -back)

@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from hydraulics import Cylinder, LiftCircuit, pressure, reserve, thrust
+from hydraulics import Cylinder, LiftCircuit, capacity, pressure, reserve, thrust
 from linkage import RIGHT, DefinitionError, Dyad, Ground, Mechanism, OnLink, Over, PinFriction, Stroke, Weight, least, ramp
 from linkage.loads import Acting
 from linkage.units import bar, mm
@@ -52,6 +52,16 @@ def test_the_worst_over_a_path_in_time_is_that_of_its_directions():
     assert timed.value == pytest.approx(both.value, rel=1e-9) and both.direction == "extending" and timed.direction == ""
     verdicts = Boom().verdicts(Boom().sweep(11, over="work"))
     assert any(" s (S = " in each for each in verdicts)
+
+
+def test_what_more_it_lifts_over_a_path_in_time_is_what_the_pump_has_to_spare():
+    machine = Boom().replaced(**{"foot.coefficient": 0.0})
+    motion = machine.sweep(201, over="work")
+    spare = 0.9 * 180 * bar * np.pi / 4 * 0.063**2 - motion[thrust("ram")]
+    found = motion[capacity("ram", "G")]
+    assert found == pytest.approx(spare / motion.ratio("G")[1], rel=1e-9)
+    (answer,) = machine.answers([least(capacity("ram", "G"))], over="work")
+    assert answer.value == pytest.approx(found.min(), rel=1e-3) and answer.value <= found.min() * (1.0 + 1e-9)
 
 
 def test_a_direction_of_ones_own_is_refused():

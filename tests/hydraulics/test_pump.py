@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief, Tank
-from linkage import Course, DefinitionError, Ground, Guide, Mechanism, OnGuide, Over, Part, Stroke, ramp
+from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief, Tank, pressure
+from linkage import Course, DefinitionError, Force, Ground, Guide, Mechanism, OnGuide, Over, Part, Stroke, ramp
 from linkage.files import from_dict, to_dict
 from linkage.loads import Acting, Damper, GuideFriction, Spring, Weight
 from linkage.units import bar, litre, minute
@@ -225,6 +225,27 @@ def test_a_given_motion_is_checked_with_its_stretch_in_the_machines_verdicts_too
     assert pump_of(machine).check(machine.sweep(11, over=slower)).verdict.ok
     weak = Timed(**{"supply.pressure": 50 * bar})
     assert "58.53 bar at" in pump_of(weak).check(weak.sweep(11, over="cycle")).verdict
+
+
+@pytest.mark.parametrize("force", [-40e3, 40e3])
+def test_losses_of_the_pump_count_on_the_load_and_not_on_a_tanks_push(force):
+    class Upright(Mechanism):
+        S = Stroke(0.0, 0.5)
+        O = Ground(0, 0)
+        way = Guide(O, angle=np.pi / 2)
+        P = OnGuide(way, at=0.8 + S)
+        ram = Cylinder(O, P, bore=80e-3, rod=45e-3)
+        load = Force(P, (0.0, force))
+        supply = Pump(200 * bar, flow=FLOW, mechanical_efficiency=0.85)
+        line = OilLine(ram.piston_side if force < 0.0 else ram.rod_side, supply)
+        back = OilLine(ram.rod_side if force < 0.0 else ram.piston_side, Tank(20 * bar))
+
+    machine, (fills, empties) = Upright(), (AREA, ANNULUS) if force < 0.0 else (ANNULUS, AREA)
+    needed = (40e3 / 0.85 + 20 * bar * empties) / fills
+    cycle = Upright.supply.run(machine, demands={"ram": np.copysign(0.05, -force)}, start={"S": 0.25}, until=1.0).cycle
+    assert cycle.pressure["line"][0] == pytest.approx(needed, rel=1e-9)
+    assert machine.evaluate([pressure("ram")], S=0.25)[0] == pytest.approx(needed, rel=1e-9)
+    assert cycle.energy.pump == pytest.approx(needed * fills * 0.05, rel=1e-9)
 
 
 def test_a_run_is_a_motion_in_time_that_goes_on_and_is_checked():

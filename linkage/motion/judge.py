@@ -1093,6 +1093,8 @@ def integrated(row: SearchRow, place: Domain) -> Candidate:
         others = ", ".join([f"{by}=(...)", *(f"{each}=0.0" for each in plan.strokes if each != by)])
         raise DefinitionError(f"{plan.title}: {leaf}: an integral is over one stroke that runs, {here}; say over=Over({others}).")
     (name,) = place.running
+    partly = f"{plan.title}: {leaf}: an integral goes over a whole stroke, and only= leaves out a part of it"
+    ensure(not place.over.only, f"{partly}; give the ends of that part, over=Over({name}=(...)).")
     held = {each: float(np.min(value)) for each, value in place.motion.strokes.items()}
     low, span = held[name], float(np.ptp(place.motion.strokes[name]))
 

@@ -181,7 +181,7 @@ class Interval:
 
 
 def unstopped_words(unit: str, part: Interval, stop: str = "") -> str:
-    """Return what stands behind an end of a range that nothing stops: no farther was looked, but of a whole turn."""
+    """Return the words behind an end of a range that nothing stops: no farther was looked, but of a whole turn."""
     return "" if stop or (unit == "rad" and part.high - part.low > 2.0 * pi - 1e-9) else said(" (looked no farther)")
 
 

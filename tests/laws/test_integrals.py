@@ -89,3 +89,10 @@ def test_an_integral_over_a_pole_is_none():
     for text in ("most(1 / (y(D) - GAP m))", "integral(1 / (y(D) - GAP m))"):
         text = text.replace("GAP", repr(float(Kinked().at(S=0.4).y("D"))))
         assert np.isnan(TextMeasures({"it": text}, 21)(Kinked(OA=np.array([0.3, 0.3])))["it"]).all()
+
+
+def test_an_integral_over_a_part_that_only_leaves_is_refused():
+    machine = Boom()
+    cut = Over(S=(machine.strokes["S"].start, machine.strokes["S"].end), only=[drive_force() >= 0.0])
+    with pytest.raises(DefinitionError, match=r"only= leaves out a part of it; give the ends of that part, over=Over\(S="):
+        machine.answers([integral(drive_force())], over=cut)

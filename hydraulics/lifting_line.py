@@ -57,7 +57,6 @@ from .cylinders import (
     Reading,
     Side,
     by_other_lines,
-    chamber_area,
     line_beside,
     line_thrust,
     lines_of,
@@ -66,7 +65,7 @@ from .cylinders import (
 )
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
 from .standard_sizes import RamSize
-from .standing import growths, is_blocked, moving_with, standing_pressure, weighed
+from .standing import common_area, common_sum, growths, is_blocked, moving_with, standing_pressure
 
 
 class Choice(ActingKeywords, total=False):
@@ -80,7 +79,7 @@ class Work:
     """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency.
 
     `drained` is the thrust of tanks on its other side [N], which the pump works against as well. `others` on the same line move with it,
-    each with how its length follows: then forces and areas are those of all.
+    each with how far it goes its working way while this one goes its own: then forces and areas are those of all.
     """
 
     thrust: Array
@@ -96,6 +95,11 @@ class Work:
         if self.size.works == "both":
             return np.asarray(self.thrust < 0.0)[()]
         return np.full(np.shape(self.thrust), self.size.works == "rod")
+
+    @property
+    def turn(self) -> Array:
+        """The sense of its length in which the working side drives: 1, or -1 where that pulls."""
+        return np.where(self.pulls, -1.0, 1.0)
 
     @property
     def area(self) -> Array:
@@ -118,25 +122,18 @@ class Work:
         return self._of_all("against", np.where(self.pulls, 1.0, -1.0) * self.drained)
 
     def _of_all(self, name: str, own: Array) -> Array:
-        turn = np.where(self.pulls, -1.0, 1.0)
-        rest = (turn * np.where(each.pulls, -1.0, 1.0) * rate * getattr(each, name) for each, rate in self.others)
-        return np.asarray(reduce(add, rest, own))[()]
+        return np.asarray(reduce(add, (weight * getattr(each, name) for each, weight in self.others), own))[()]
 
     @property
     def supplied(self) -> Mask:
         """Where the working side is filled by the pump: it moves the way it pushes or pulls."""
-        return np.asarray(self.sense * np.where(self.pulls, -1.0, 1.0) >= 0.0)[()]
+        return np.asarray(self.sense * self.turn >= 0.0)[()]
 
     @property
     def force(self) -> Array:
         """The rod force in the working direction [N]: over k_m where the load resists the motion, times k_m where it drives."""
         along = self.along
         return np.where(along * np.where(self.supplied, 1.0, -1.0) > 0.0, along / self.k_m, along * self.k_m)
-
-    def towards(self, sense: float) -> Work:
-        """Return the work of the sides that drive in a direction, 1 while it grows, whatever is asked of them."""
-        others = tuple((replace(each, thrust=sense * np.sign(rate)), rate) for each, rate in self.others)
-        return replace(self, thrust=np.asarray(sense), sense=np.asarray(sense), others=others)
 
 
 @immutable
@@ -200,29 +197,21 @@ def sums_back(ram: Ram, line: Circuit, motion: AnyMotion, acting: Acting, way: s
 
     Signs are those of its length, and of several each counts as its length goes along. Where nothing pushes, what empties is pushed back.
     """
-    own, members = rams_beside(line, ram, motion), held_in_case(motion, acting).plan.members
+    own, members = [ram if same(each, ram) else each for each in line.rams(motion)], held_in_case(motion, acting).plan.members
     pushing, is_spool = pushed_back(ram, line, members), any(each.side == "both" for each in own)
-    rams = each_once((*own, *(each for each, _ in pushing)))
-    sense, rates = -1.0 if way == "retracting" else 1.0, growths(motion, rams, ram)
+    rams = each_once((ram, *own, *(each for each, _ in pushing)))
+    sense, total = -1.0 if way == "retracting" else 1.0, partial(common_sum, motion, rams)
     laws = (partial(line_thrust, each, line, motion, with_tanks=False) for each in rams)
-    asks = [moving_with(ram, each, motion, acting, law) for each, law in zip(rams, laws, strict=True)]
-    drained = (by_other_lines(each, line, held_in_case(motion, acting), None, True) for each in rams)
-    emptied, pushed = list[Array](), list[Array]()
-    for each, rate in zip(rams, rates, strict=True):
-        size, other = each.sized(motion, way), [chamber_area(chamber, each, motion) for one, chamber in pushing if same(one, each)]
-        sides: tuple[Any, Any] = size.sense * size.area if is_among(each, own) else 0.0, reduce(add, other, 0.0)
-        if is_spool:  # it fills of each cylinder the side that goes along, where that works
-            both = size.push_area * (each.side != "rod"), -1.0 * size.pull_area * (each.side != "piston")
-            sides = np.where(sense * rate < 0.0, *both), np.where(sense * rate < 0.0, *both[::-1])
-        emptied.append(np.asarray(sides[0]))
-        pushed.append(np.asarray(sides[1]))
-    out = weighed(emptied, rates)
-    return weighed(asks, rates), weighed(drained, rates), out, weighed(pushed, rates) if pushing else -out
-
-
-def rams_beside(line: Circuit, ram: Ram, motion: Poses) -> tuple[Ram, ...]:
-    """Return the cylinders of a line as it works them, one of them as it is given."""
-    return tuple(ram if same(each, ram) else each for each in line.rams(motion))
+    asks = total([(each, moving_with(ram, each, motion, acting, law)) for each, law in zip(rams, laws, strict=True)])
+    drained = total([(each, by_other_lines(each, line, held_in_case(motion, acting), None, True)) for each in rams])
+    sizes = [(each, each.sized(motion, way)) for each in rams]
+    if is_spool:  # it fills of each cylinder the side that goes along, where that works
+        shrinks = [sense * rate < 0.0 for rate in growths(motion, rams, ram)]
+        ends = [(size.push_area * (each.side != ROD), -1.0 * size.pull_area * (each.side != PISTON)) for each, size in sizes]
+        empties, fills = ([np.where(there, *areas[::step]) for there, areas in zip(shrinks, ends, strict=True)] for step in (1, -1))
+        return asks, drained, total([*zip(rams, empties, strict=True)]), total([*zip(rams, fills, strict=True)])
+    out = total([(each, size.sense * size.area) for each, size in sizes if is_among(each, own)])
+    return asks, drained, out, common_area(motion, rams, pushing) if pushing else -out
 
 
 def pushed_back(ram: Ram, line: Circuit, members: NamedMembers) -> list[tuple[Ram, Chamber]]:
@@ -388,47 +377,54 @@ class LiftLine(Circuit):
     def work_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
         size, k_m = cylinder.sized(motion, acting.direction), self.efficiency(motion, "mechanical")
         goes = cylinder.goes(motion, acting)
-        if goes is not None:  # over a path in time as it runs
-            thrust = line_thrust(cylinder, self, motion, acting, with_tanks=size.works == "both")
-            drained = 0.0 if size.works == "both" else by_other_lines(cylinder, self, held_in_case(motion, acting), None, True)
-            return Work(thrust, np.where(goes == 0.0, np.sign(thrust), goes), size, k_m, drained)
-        if size.works == "both" and acting.direction is None:
+        if goes is None and size.works == "both" and acting.direction is None:
             ways = [acting.towards(way) for way in ("extending", "retracting")]
             ways = ways if acting.rates is None else [replace(acting, direction=AS_IT_RUNS)] * 2
             out, back = (line_thrust(cylinder, self, motion, way) for way in ways)
             pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
             return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
-        way = acting.direction or ("retracting" if size.works == "rod" else "extending")
-        thrust = line_thrust(cylinder, self, motion, replace(acting, direction=way), with_tanks=False)
-        drained = by_other_lines(cylinder, self, held_in_case(motion, acting), None, True)
-        sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
-        return Work(thrust, sense, size, k_m, drained)
+        way = acting.direction or cylinder.driven[0]
+        acting = replace(acting, direction=way) if goes is None else acting  # over a path in time as it runs
+        thrust = line_thrust(cylinder, self, motion, acting, with_tanks=False)
+        goes = np.full(np.shape(thrust), float(SENSES[way])) if goes is None else goes
+        sense = np.where(goes == 0.0, np.sign(thrust), goes)
+        return Work(thrust, sense, size, k_m, by_other_lines(cylinder, self, held_in_case(motion, acting), None, True))
 
     def work_of_all(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
         """Return the work of a cylinder with the others of its line, which have one pressure with it."""
-        work, rams = self.work_of(cylinder, motion, acting), rams_beside(self, cylinder, motion)
-        if len(rams) == 1:
-            return work
+        work = self.work_of(cylinder, motion, acting)
         if work.size.works != "both":
-            acting = replace(acting, direction=acting.direction or ("retracting" if work.size.works == "rod" else "extending"))
-        return self._with_others(cylinder, work, motion, partial(self._moved_with, cylinder, motion, acting))
+            acting = replace(acting, direction=acting.direction or cylinder.driven[0])
+
+        def moved(each: Ram, _: Array) -> Work:
+            def thrust(acting: Acting) -> Array:
+                return self.work_of(each, motion, acting).thrust
+
+            return replace(self.work_of(each, motion, acting), thrust=moving_with(cylinder, each, motion, acting, thrust))
+
+        return self._with_others(cylinder, work, motion, moved)
+
+    def driving(self, cylinder: Ram, motion: AnyMotion, sense: float, direction: str | None = None, *, alone: bool = False) -> Work:
+        """Return the work of the sides that drive in a direction, 1 while the cylinder grows, whatever is asked of them."""
+        k_m = self.efficiency(motion, "mechanical")
+
+        def driven(each: Ram, rate: Array) -> Work:
+            way = np.asarray(sense * np.sign(rate))
+            return Work(way, way, each.sized(motion, direction), k_m, by_other_lines(each, self, motion, None, True))
+
+        work = driven(cylinder, np.ones(()))
+        return work if alone else self._with_others(cylinder, work, motion, driven)
 
     def _with_others(self, cylinder: Ram, work: Work, motion: AnyMotion, of: Callable[[Ram, Array], Work]) -> Work:
         """Return a work with those of the others on the line, each of how its length follows."""
-        rams, others = rams_beside(self, cylinder, motion), list[tuple[Work, Array]]()
+        rams, others = self.rams(motion), list[tuple[Work, Array]]()
+        is_spool = any(each.side == "both" for each in rams)
         for each in (one for one in rams if not same(one, cylinder)):
             own, rate = growths(motion, (cylinder, each), cylinder)
             beside = of(each, rate / own)
-            along = np.where(beside.pulls, -rate, rate) * np.where(work.pulls, -own, own)
-            is_spool = any(one.side == "both" for one in rams)  # it drains what goes against its side
-            others.append((beside, np.where(is_spool & (along < 0.0), 0.0, rate / own)))
+            weight = work.turn * beside.turn * rate / own
+            others.append((beside, np.maximum(weight, 0.0) if is_spool else weight))  # a spool drains what goes against its side
         return replace(work, others=tuple(others))
-
-    def _moved_with(self, cylinder: Ram, motion: AnyMotion, acting: Acting, each: Ram, rate: Array) -> Work:
-        def thrust(acting: Acting) -> Array:
-            return self.work_of(each, motion, acting).thrust
-
-        return replace(self.work_of(each, motion, acting), thrust=moving_with(cylinder, each, motion, acting, thrust))
 
     def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
@@ -526,7 +522,6 @@ class LiftLine(Circuit):
         ram = self.one(motion, cylinder)
         size = ram.sized(motion)
         others = by_other_lines(ram, self, motion, None, None if not lifting else False)  # type: ignore[arg-type]
-        drained = by_other_lines(ram, self, motion, None, True)  # type: ignore[arg-type]
         nothing = np.zeros(())
         if not lifting:
             held = self.relief_pressure(motion)
@@ -535,25 +530,19 @@ class LiftLine(Circuit):
             if beside is not None and beside.kind_in(motion.plan.members) == "given":
                 low, high = (low, nothing) if size.works == "rod" else (nothing, high)
         else:
-            k_m = self.efficiency(motion, "mechanical")
-            works = [Work(way, way, size, k_m, drained) for way in (np.asarray(-1.0), np.asarray(1.0))]
-            pull, push = (self._shared(ram, motion, work, share) for work in works)  # type: ignore[arg-type]
+            pull, push = (self._shared(ram, motion, sense, share) for sense in (-1.0, 1.0))  # type: ignore[arg-type]
             low, high = (-pull if size.works in ("rod", "both") else nothing), (nothing if size.works == "rod" else push)
         return low + others, high + others
 
-    def _shared(self, ram: Ram, motion: AnyMotion, work: Work, share: float) -> Array:
-        """Return the greatest thrust of one cylinder's work [N]: of several its part without losses of what all give at one pressure."""
-        back, rams = self.back(motion), self.rams(motion)
+    def _shared(self, ram: Ram, motion: AnyMotion, sense: float, share: float) -> Array:
+        """Return the greatest thrust of one cylinder [N]: of several its part without losses of what all give at one pressure."""
+        back, rams, alone = self.back(motion), self.rams(motion), self.driving(ram, motion, sense, alone=True)
         drains = [line for each in rams for line, _ in lines_of(each, motion.plan.members, "given") if line.is_drained]
         if len(rams) == 1 or not (drains or is_traced(back) or np.any(back > 0.0)):
-            return self._given(motion, work, share) * work.k_m
-        every = self._with_others(ram, work, motion, partial(self._towards, motion, work))
-        pressure = (self._given(motion, every, share) * work.k_m + every.against) / every.area
-        return np.asarray(pressure * work.area - work.against)[()]
-
-    def _towards(self, motion: AnyMotion, work: Work, each: Ram, rate: Array) -> Work:
-        way = work.sense * np.sign(rate)
-        return Work(way, way, each.sized(motion), work.k_m, by_other_lines(each, self, motion, None, True))
+            return self._given(motion, alone, share) * alone.k_m
+        every = self.driving(ram, motion, sense)
+        pressure = (self._given(motion, every, share) * every.k_m + every.against) / every.area
+        return np.asarray(pressure * alone.area - alone.against)[()]
 
     def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.

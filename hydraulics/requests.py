@@ -320,8 +320,9 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
         line, sense = circuit_with(motion.plan, ram, circuit, "reserve"), 1.0 if acting.direction == "extending" else -1.0
         work = line.work_of_all(line.one(motion, ram), motion, acting)
-        thrust = np.where(work.pulls, -work.along, work.along) if work.others else work.thrust
-        return np.asarray(sense * thrust / (work.k_m * line.most(motion, work.towards(sense))))[()]
+        driving = line.driving(line.one(motion, ram), motion, sense, acting.direction)
+        thrust = work.turn * work.along if work.others else work.thrust
+        return np.asarray(sense * thrust / (work.k_m * line.most(motion, driving)))[()]
 
     def directions(plan: Plan) -> tuple[str, ...]:
         return cylinder_on(cylinder, circuit, plan, "reserve").driven

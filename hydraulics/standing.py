@@ -6,10 +6,10 @@ open, as of a cylinder with both sides shut, they are the least that balance.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial, reduce
-from operator import add, mul
+from operator import add
 
 import numpy as np
 
@@ -74,15 +74,14 @@ def growths(motion: AnyMotion, rams: Sequence[Ram], first: Ram) -> list[Array]:
     return [ram.growth(motion, rates) * sense for ram in rams]
 
 
-def weighed(values: Iterable[Array | float], weights: Iterable[Array]) -> Array:
-    """Return the sum of forces or areas of cylinders, each times its weight."""
-    return np.asarray(reduce(add, map(mul, values, weights)))[()]
+def common_sum(motion: AnyMotion, rams: Sequence[Ram], values: Sequence[tuple[Ram, Array | float]]) -> Array:
+    """Return the sum of forces or areas of cylinders that one stroke moves: of several each counts by how its length follows that.
 
-
-def common_sum(motion: AnyMotion, rams: Sequence[Ram], values: Sequence[tuple[Ram, Array]]) -> Array:
-    """Return the sum of forces or areas of cylinders that one stroke moves: of several each counts by how its length follows that."""
-    rates = dict(zip((each.name for each in rams), growths(motion, rams, rams[0]), strict=True))
-    return weighed([value for _, value in values], [rates[ram.name] for ram, _ in values])
+    Signs are those of the first one's length.
+    """
+    rates = [*zip(rams, growths(motion, rams, rams[0]), strict=True)]
+    parts = (value * next(rate for one, rate in rates if same(one, ram)) for ram, value in values)
+    return np.asarray(reduce(add, parts))[()]
 
 
 def common_area(motion: AnyMotion, rams: Sequence[Ram], filling: Sequence[tuple[Ram, Chamber]]) -> Array:

@@ -53,7 +53,7 @@ const writers = (() => {
       found.links[`rod_${name}`] = { points: `${P} ${Q}`, [P + Q]: !isGiven && Math.min(start, end) <= 0 ? name : `${number(closed)} + ${name}` };
     }
     for (const [name, { point, along }] of of(slides)) {
-      found.guides[`line_${name}`] = Array.isArray(along) ? { from: along[0], to: along[1] } : { from: points[point], angle: along };
+      found.guides[`line_${name}`] = Array.isArray(along) ? { from: along[0], to: along[1] } : { from: points[point], angle: inUnit(along, "deg", DEGREE) };
       found.slides[name] = { point, guide: `line_${name}` };
     }
     for (const [name, { ends, bore, rod }] of cylinders) if (bore) found.hydraulics[`cylinder_${name}`] = { Cylinder: ends, bore, rod };
@@ -73,7 +73,7 @@ const writers = (() => {
     hydraulics: ({ Cylinder, ...words }) => `Cylinder(${[...Cylinder, ...worded(words)].join(", ")})`,
     loads: ({ Weight, ...words }) => `Weight(${[Weight, ...worded(words)].join(", ")})`,
   };
-  const worded = (table) => Object.entries(table).map(([name, value]) => `${name}=${typeof value === "string" ? value : number(value)}`);
+  const worded = (table) => Object.entries(table).map(([name, value]) => `${name}=${typeof value === "string" ? value.replace(" deg", " * deg") : number(value)}`);
   function python(drawing) {
     const found = tables(drawing), { name } = drawing, lines = found.hydraulics ? ["from hydraulics import Cylinder"] : [];
     lines.push("from linkage import *", "", "", `class ${name}(Mechanism):`, `    """${name}, as it is drawn."""`, ...drawing.notes.map((note) => `    # ${note}`), "");
@@ -100,7 +100,6 @@ const writers = (() => {
       found.strokes[name] = found.strokes[name].map(degrees);
       found.drawn.sketch[name] = degrees(found.drawn.sketch[name]);
     }
-    for (const each of Object.values(found.guides || {})) if (each.angle !== undefined) each.angle = degrees(each.angle);
     for (const each of Object.values(found.hydraulics || {})) for (const size of ["bore", "rod"]) each[size] = inUnit(each[size], "mm", MILLIMETRE);
     return `${[head.join("\n"), ...Object.entries(found).map(([name, table]) => section(name, table))].join("\n\n")}\n`;
   }

@@ -9,7 +9,7 @@ from ..disk import check_place, is_one_file, replacing_text
 from ..errors import DefinitionError, ensure
 from ..units import parse
 from .command import Command, option, repeatable, say_remark
-from .settings import pair, span_said
+from .settings import has_unit, pair, span_said
 
 
 @Command(
@@ -78,8 +78,6 @@ def import_command(options: Namespace) -> int:
 def drive_said(ends: list[str], kind: str) -> tuple[str | float, ...]:
     """Return the ends of a drive, and how far it goes where the second says it, such as `B=300mm` or `B=-20:300mm`."""
     name, given, amounts = ends[1].partition("=")
-    ensure(
-        not given or any(map(str.isalpha, amounts)),
-        f"{' '.join(ends)}: say the unit too, such as {name}={'300mm' if kind == 'length' else '90deg'}.",
-    )
+    example = f"{name}={'300mm' if kind == 'length' else '90deg'}"
+    ensure(not given or has_unit(amounts), f"{' '.join(ends)}: say the unit too, such as {example}.")
     return (ends[0], name, *(span_said(amounts, kind, f"{ends[0]} {name}") if given else ()))

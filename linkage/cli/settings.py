@@ -162,7 +162,7 @@ def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:
         own = plan.table.spellings[name][0]
         kind, usual = plan_measure(plan, own), abs(plan.defaults.get(own, 0.0))
         found, unit = si_value(value, kind, f"--set {name}"), display_unit(kind, "mm" if kind == "length" else "")
-        if unit and not value[-1].isalpha() and usual:
+        if unit and usual and not has_unit(value):
             is_odd, is_odd_so = (not 1.0 / ODD < abs(each) / usual < ODD for each in (found, parse(value + unit)))
             meant = f"{show(abs(found), unit)} in SI, where {plan.title} has {show(usual, unit)}"
             ensure(is_odd_so or not is_odd, f"--set {text}: without a unit this is {meant}; write the unit, such as --set {text}{unit}.")
@@ -190,8 +190,13 @@ def si_value(text: str, kind: str, what: str, units: str = "") -> float:
         value = parse(text, kind)
     except DefinitionError as error:
         raise DefinitionError(f"{what}: {error}") from None
-    ensure(not units or any(map(str.isalpha, re.sub("[eE]", "", text))), f"{what} {text}: say the unit too, such as {units}.")
+    ensure(not units or has_unit(text), f"{what} {text}: say the unit too, such as {units}.")
     return value
+
+
+def has_unit(text: str) -> bool:
+    """Return whether a number or several in a text have a unit, which may end in a figure: `200 kgf/cm2`."""
+    return any(map(str.isalpha, re.sub("[eE]", "", text)))
 
 
 def span_said(text: str, kind: str, what: str) -> tuple[float, ...]:
@@ -429,5 +434,5 @@ def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float,
     unit = units[known_name("Column", name, units, "--limit")]
     side, words = LIMITS[sign]
     limit = si_value(value, UNITS[unit][1] if unit else "", f"--limit {name}")
-    ensure(unit or not value[-1].isalpha(), f"--limit {name}: {value!r} has a unit, and the column has none; give a number alone.")
+    ensure(unit or not has_unit(value), f"--limit {name}: {value!r} has a unit, and the column has none; give a number alone.")
     return name, (limit, f"{words} {value}", side)

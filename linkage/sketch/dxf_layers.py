@@ -180,15 +180,13 @@ class DrawingReader:
 
     def drive(self, role: str, P: str, Q: str) -> None:
         """Enter a drive between two pins; a crank turns about the fixed one, and brings its own link."""
-        if role == "cylinder":
-            self.found.drives.append(FoundDrive("cylinder", (P, Q)))
-            return
-        pivot, arm = (P, Q) if self.found.points[P].fixed else (Q, P)
-        is_fixed = self.found.points[pivot].fixed
-        self.found.ensure(is_fixed, f"the crank {P} {Q} has no fixed pin; hatch one, or put it on the layer ground.")
-        if not any({P, Q} <= {*points} for _, points in self.found.links):
-            self.found.add_link("", [pivot, arm])
-        self.found.drives.append(FoundDrive("crank", (pivot, arm)))
+        ends, fixed = (P, Q), [key for key in (P, Q) if self.found.points[key].fixed]
+        if role == "crank":
+            self.found.ensure(fixed, f"the crank {P} {Q} has no fixed pin; hatch one, or put it on the layer ground.")
+            ends = (P, Q) if fixed[0] == P else (Q, P)
+            if not any({P, Q} <= {*points} for _, points in self.found.links):
+                self.found.add_link("", ends)
+        self.found.drives.append(FoundDrive(role, ends))
 
 
 def drawn_part(entity: Any, blocks: Mapping[int, Any]) -> tuple[int, str]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from ..disk import Place, read
-from ..errors import DefinitionError, FileError, cited, ensure, is_number, unknown
+from ..errors import FileError, cited, ensure, is_number, unknown
 from ..files.source import FILE_BYTES, decoded, text_of
 from ..quantities import joined_names
 from ..units import show
@@ -202,14 +202,10 @@ def add_drive(found: FoundMachine, kind: str, named: Sequence[str | float]) -> N
     P, Q = (keys[name] for name in ends)
     names = found.points[P].name, found.points[Q].name
     if kind == "crank":
-        fixed = ", ".join(point.name for point in found.points.values() if point.fixed)
-        if not found.points[P].fixed:
-            what = f"{found.file}: --drive {' '.join(names)}"
-            raise DefinitionError(f"{what}: {names[0]} is not fixed; a crank turns about a fixed pin: {fixed}.")
-        joined = any({P, Q} <= {*points} for _, points in found.links)
-        ensure(
-            joined, f"{found.file}: --drive {' '.join(names)}: no link joins {names[0]} and {names[1]}; name a pin of the link that turns."
-        )
+        what, fixed = f"{found.file}: --drive {' '.join(names)}", ", ".join(point.name for point in found.points.values() if point.fixed)
+        ensure(found.points[P].fixed, f"{what}: {names[0]} is not fixed; a crank turns about a fixed pin: {fixed}.")
+        is_joined = any({P, Q} <= {*points} for _, points in found.links)
+        ensure(is_joined, f"{what}: no link joins {names[0]} and {names[1]}; name a pin of the link that turns.")
     what = f"{found.file}: the {kind} {' '.join(names)}"
     ensure(len(amounts) < 3 and all(map(is_number, amounts)), f"{what} goes {amounts}; give how far, or back and forwards.")
     start, *end = amounts if len(amounts) > 1 else (0.0, *amounts)

@@ -247,10 +247,8 @@ class FoundMachine:
                 name, start, end, drawn = "phi", float(drive.start), float(TURN if drive.reach is None else drive.reach), 0.0
             else:
                 reach = f"{HALF * dist(places[P], places[Q])!r}m" if drive.reach is None else drive.reach
-                lengths = (
-                    parse(each, "length") if isinstance(each, str) else each * (self.unit or 1.0)
-                    for each in (drive.start, reach, drive.drawn)
-                )
+                given, unit = (drive.start, reach, drive.drawn), self.unit or 1.0
+                lengths = (parse(each, "length") if isinstance(each, str) else each * unit for each in given)
                 name, (start, end, drawn) = "S", map(noiseless, lengths)
                 if drive.reach is None:
                     self.notes.append(f"The file does not say the stroke of the cylinder {P} {Q}: it goes out by half its drawn length.")

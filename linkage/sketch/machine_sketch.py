@@ -403,9 +403,8 @@ def python_member(section: str, table: Mapping[str, Any]) -> str:
         case "links":
             return f"Link({', '.join([quoted(table['points']), *words])})"
         case "guides":
-            ends = [
-                quoted(table[name]) if isinstance(table[name], str) else f"{(*table[name],)!r}" for name in ("from", "to") if name in table
-            ]
+            given_ends = (table[name] for name in ("from", "to") if name in table)
+            ends = [quoted(end) if isinstance(end, str) else repr((*end,)) for end in given_ends]
             return f"Guide({', '.join([*ends, *words])})"
         case "hydraulics":
             return f"Cylinder({', '.join(table['Cylinder'])}, bore={table['bore']!r}, rod={table['rod']!r})"

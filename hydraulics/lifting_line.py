@@ -206,7 +206,7 @@ def sums_back(ram: Ram, line: Circuit, motion: AnyMotion, acting: Acting, way: s
     drained = total([(each, by_other_lines(each, line, held_in_case(motion, acting), None, True)) for each in rams])
     sizes = [(each, each.sized(motion, way)) for each in rams]
     if is_spool:  # it fills of each cylinder the side that goes along, where that works
-        shrinks = [sense * rate < 0.0 for rate in growths(motion, rams, ram)]
+        shrinks = [sense * rate < 0.0 for rate in growths(motion, rams)]
         ends = [(size.push_area * (each.side != ROD), -1.0 * size.pull_area * (each.side != PISTON)) for each, size in sizes]
         empties, fills = ([np.where(there, *areas[::step]) for there, areas in zip(shrinks, ends, strict=True)] for step in (1, -1))
         return asks, drained, total([*zip(rams, empties, strict=True)]), total([*zip(rams, fills, strict=True)])
@@ -420,7 +420,7 @@ class LiftLine(Circuit):
         rams, others = self.rams(motion), list[tuple[Work, Array]]()
         is_spool = any(each.side == "both" for each in rams)
         for each in (one for one in rams if not same(one, cylinder)):
-            own, rate = growths(motion, (cylinder, each), cylinder)
+            own, rate = growths(motion, (cylinder, each))
             beside = of(each, rate / own)
             weight = work.turn * beside.turn * rate / own
             others.append((beside, np.maximum(weight, 0.0) if is_spool else weight))  # a spool drains what goes against its side

@@ -592,7 +592,7 @@ def flow(line: Reference) -> LawRequest:
         return known
 
     def over(motion: AnyMotion) -> Array:
-        rates, filled = own_rates(motion, f"flow({name})"), found(motion.plan).filling(motion.plan.members)
+        filled, rates = found(motion.plan).filling(motion.plan.members), own_rates(motion, f"flow({name})")
         taken = [chamber_area(chamber, ram, motion) * ram.growth(motion, rates) for ram, chamber in filled]
         both = [ram.name for ram, _ in filled if ram.works_both]  # where a spool has both sides the pump is on those that grow
         return reduce(np.add, [np.maximum(each, 0.0) for each in taken] if len({*both}) < len(both) else taken)

@@ -62,15 +62,15 @@ def moving_with(first: Ram, ram: Ram, motion: AnyMotion, acting: Acting, law: Ca
     if not acting.is_moving or same(ram, first) or not changes_in_motion(motion, acting.loads):
         return law(acting)
     turned = replace(acting, direction="retracting" if acting.direction == "extending" else "extending")
-    return np.where(growths(motion, (first, ram), first)[1] < 0.0, law(turned), law(acting))
+    return np.where(growths(motion, (first, ram))[1] < 0.0, law(turned), law(acting))
 
 
-def growths(motion: AnyMotion, rams: Sequence[Ram], first: Ram) -> list[Array]:
+def growths(motion: AnyMotion, rams: Sequence[Ram]) -> list[Array]:
     """Return how the lengths of cylinders that one stroke moves follow it, while that of the first of them grows; 1 of one alone."""
     if len(rams) == 1:
         return [np.ones(())]
-    rates = {stroke_followed(motion.plan, first): 1.0}
-    sense = np.sign(first.growth(motion, rates))
+    rates = {stroke_followed(motion.plan, rams[0]): 1.0}
+    sense = np.sign(rams[0].growth(motion, rates))
     return [ram.growth(motion, rates) * sense for ram in rams]
 
 
@@ -79,7 +79,7 @@ def common_sum(motion: AnyMotion, rams: Sequence[Ram], values: Sequence[tuple[Ra
 
     Signs are those of the first one's length.
     """
-    rates = [*zip(rams, growths(motion, rams, rams[0]), strict=True)]
+    rates = [*zip(rams, growths(motion, rams), strict=True)]
     parts = (value * next(rate for one, rate in rates if same(one, ram)) for ram, value in values)
     return np.asarray(reduce(add, parts))[()]
 

@@ -586,7 +586,7 @@ class LiftingCylinder:
         each_way = [(way, judge.answers([most(self.back(way, resistance)) <= 0.0])[0]) for way in self.ways_back]
         way, push = max(each_way, key=lambda each: (each[1].unbounded, float(np.nan_to_num(each[1].value, nan=-np.inf))))
         alone, nothing = judge.answer(least(self.back(way, resistance, "load"))), TO_ROUNDING * float(self.circuit.supply(judge.motion))
-        if push.ok is None:
+        if push.ok is None or np.isnan(push.value):
             return Verdict("lowering", None, said("it goes back nowhere over what it runs."))
         if push.ok or push.value <= nothing:
             by = {"against": against, "where": alone.place, "pressure": self.show(alone.value)}

@@ -57,6 +57,7 @@ from .cylinders import (
     Reading,
     Side,
     by_other_lines,
+    changes_in_motion,
     line_beside,
     line_thrust,
     lines_of,
@@ -122,12 +123,28 @@ class Work:
         return self._of_all("against", np.where(self.pulls, 1.0, -1.0) * self.drained)
 
     def _of_all(self, name: str, own: Array) -> Array:
-        return np.asarray(reduce(add, (weight * getattr(each, name) for each, weight in self.others), own))[()]
+        return np.asarray(self.leads * reduce(add, (weight * getattr(each, name) for each, weight in self.others), own))[()]
+
+    @property
+    def leads(self) -> Array | float:
+        """1 where the line fills as it goes its working way; -1 past its dead point, where the others fill more than it empties."""
+        own = np.where(self.pulls, self.size.pull_area, self.size.outward_area)
+        return np.where(reduce(add, (weight * each.area for each, weight in self.others), own) < 0.0, -1.0, 1.0) if self.others else 1.0
 
     @property
     def supplied(self) -> Mask:
-        """Where the working side is filled by the pump: it moves the way it pushes or pulls."""
-        return np.asarray(self.sense * self.turn >= 0.0)[()]
+        """Where the pump fills the working sides: they move the way they push or pull, with those that fill most."""
+        return np.asarray(self.sense * self.turn * self.leads >= 0.0)[()]
+
+    def turned(self, other: Work) -> Work:
+        """Return the same with the thrusts and the sense of another direction where its line empties."""
+        back = self.leads < 0.0
+        others = tuple(
+            (replace(one, thrust=np.where(back, each.thrust, one.thrust)), weight)
+            for (one, weight), (each, _) in zip(self.others, other.others, strict=True)
+        )
+        sense = np.where(back, other.sense, self.sense)
+        return replace(self, thrust=np.where(back, other.thrust, self.thrust), sense=sense, others=others)
 
     @property
     def force(self) -> Array:
@@ -183,12 +200,17 @@ def way_back(
     goes, sense = ram.goes(motion, running), -1.0 if way == "retracting" else 1.0
     acting = acting.towards(way) if goes is None else running
     asks, drained, out, into = sums_back(ram, line, motion, acting, way)
-    asks = np.where(sense * asks > 0.0, asks / k_m, asks * k_m)
+    is_turned = out * ram.sized(motion, way).sense < 0.0  # past its dead point the others take it along
+    if goes is None and len(line.rams(motion)) > 1 and changes_in_motion(motion, acting.loads):
+        (other,) = {"extending", "retracting"} - {way}
+        asks = np.where(is_turned, sums_back(ram, line, motion, acting.towards(other), other)[0], asks)
+    back = np.where(is_turned, -sense, sense)
+    asks = np.where(back * asks > 0.0, asks / k_m, asks * k_m)
     beside = line_beside(ram, other_side(ram), line, held_in_case(motion, acting).plan.members)
     tank = beside.line_pressure(motion, acting) if beside is not None and beside.is_drained else np.zeros(())
     found = np.maximum((asks - drained) / out, 0.0), (asks - against * out - drained) / into, tank
     pressures = [np.asarray(each)[()] for each in found]
-    working, push, tank = pressures if goes is None else [only_where(goes * sense > 0.0, each) for each in pressures]
+    working, push, tank = pressures if goes is None else [only_where(goes * back > 0.0, each) for each in pressures]
     return working, push, tank
 
 
@@ -392,7 +414,7 @@ class LiftLine(Circuit):
 
     def work_of_all(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Work:
         """Return the work of a cylinder with the others of its line, which have one pressure with it."""
-        work = self.work_of(cylinder, motion, acting)
+        work, goes, is_said = self.work_of(cylinder, motion, acting), cylinder.goes(motion, acting), acting.direction is not None
         if work.size.works != "both":
             acting = replace(acting, direction=acting.direction or cylinder.driven[0])
 
@@ -402,7 +424,13 @@ class LiftLine(Circuit):
 
             return replace(self.work_of(each, motion, acting), thrust=moving_with(cylinder, each, motion, acting, thrust))
 
-        return self._with_others(cylinder, work, motion, moved)
+        found = self._with_others(cylinder, work, motion, moved)
+        if goes is not None and found.others:  # where it stands, all together hold the load
+            found = replace(found, sense=np.where(goes == 0.0, found.turn * found.leads * np.sign(found.along), found.sense))
+        if is_said or goes is not None or not found.others or work.size.works == "both":
+            return found
+        (other,) = {"extending", "retracting"} - {acting.direction}
+        return found.turned(self.work_of_all(cylinder, motion, acting.towards(other)))
 
     def driving(self, cylinder: Ram, motion: AnyMotion, sense: float, direction: str | None = None, *, alone: bool = False) -> Work:
         """Return the work of the sides that drive in a direction, 1 while the cylinder grows, whatever is asked of them."""

@@ -299,15 +299,20 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
     Its smooth piece is that of the side that drives, whose inverse goes on smoothly where the load drives.
     """
 
+    def lifting(line: LiftLine, motion: AnyMotion, ram: Ram, acting: Acting) -> Acting:
+        """Return a situation in which a cylinder of several goes its working way: past its dead point the line drives it the other way."""
+        is_working = ram.side != "both" and acting.direction == ram.driven[0] and len(line.rams(motion)) > 1
+        return replace(acting, direction=None) if is_working else acting
+
     def work_of(line: LiftLine, motion: AnyMotion, ram: Ram, acting: Acting) -> tuple[Work, Array]:
         """Return the cylinder's work, and a value above zero where it drives [N]: the thrust in its direction if that is judged."""
-        work = line.work_of_all(line.one(motion, ram), motion, acting)
-        return work, work.thrust * work.sense if is_judged else work.force
+        work = line.work_of_all(line.one(motion, ram), motion, lifting(line, motion, ram, acting))
+        return work, work.along * np.where(work.supplied, 1.0, -1.0) if is_judged else work.force
 
     def over_needed(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         line = circuit_with(motion.plan, ram, circuit, "reserve")
         if not is_judged:
-            return line.reserve(motion, cylinder=ram, acting=acting)
+            return line.reserve(motion, cylinder=ram, acting=lifting(line, motion, ram, acting))
         work, against = work_of(line, motion, ram, acting)
         with np.errstate(invalid="ignore"):
             return np.asarray(line.most(motion, work) / only_where(against > 0.0, work.force))[()]
@@ -319,10 +324,9 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
     def use(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         """Return one over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
         line, sense = circuit_with(motion.plan, ram, circuit, "reserve"), 1.0 if acting.direction == "extending" else -1.0
-        work = line.work_of_all(line.one(motion, ram), motion, acting)
+        work = work_of(line, motion, ram, acting)[0]
         driving = line.driving(line.one(motion, ram), motion, sense, acting.direction)
-        thrust = work.turn * work.along if work.others else work.thrust
-        return np.asarray(sense * thrust / (work.k_m * line.most(motion, driving)))[()]
+        return np.asarray(sense * work.leads * work.turn * work.along / (work.k_m * line.most(motion, driving)) * driving.leads)[()]
 
     def directions(plan: Plan) -> tuple[str, ...]:
         return cylinder_on(cylinder, circuit, plan, "reserve").driven

@@ -49,6 +49,7 @@ from linkage import (
     Stroke,
     Weight,
     angle,
+    distance,
     drawn,
     drive_force,
     driving_force,
@@ -64,7 +65,7 @@ from linkage.quantities import label
 from linkage.reports.results import drive_columns
 from linkage.statics import pulling
 from linkage.statics.carried import LoadAt
-from linkage.units import bar, deg, kN, litre
+from linkage.units import bar, deg, g0, kN, litre
 from tests.for_all import for_all
 
 AREA = math.pi / 4 * 0.08**2
@@ -607,3 +608,52 @@ def test_no_verdict_tells_a_number_that_is_none(seed):
     told = [str(each) for each in machine().verdicts()]
     assert any("dead point" in each for each in told)
     assert not [each for each in told if re.search(r"\b(nan|inf)\b", each)]
+
+
+def flap(seed):
+    """Return a flap on two cylinders of one line, the second past its dead point from 26 deg on, and its friction's moment."""
+    rng = Random(seed)
+    rubbing = 0.2 * (seed % 2)
+
+    class Flap(Mechanism):
+        phi = Stroke(-10 * deg, 85 * deg)
+        O, M, N = Ground(0.0, 0.0), Ground(0.72, -0.55), Ground(-0.50, -0.62)
+        T = Crank(O, OT=2.3, angle=phi)
+        P = OnLink(O, T, OP=0.62, TOP=-14 * deg)
+        R = OnLink(O, T, OR=rng.uniform(0.38, 0.44), TOR=25 * deg)
+        main = Cylinder(M, P, bore=100 * mm, rod=56 * mm)
+        aux = Cylinder(N, R, bore=63 * mm, rod=36 * mm)
+        load = Weight(T, mass=rng.uniform(900.0, 1300.0))
+        rub = PinFriction(O, 40 * mm, rubbing)
+        supply = Pump(210 * bar, mechanical_efficiency=0.88, hydraulic_efficiency=0.95)
+        line = OilLine(main.piston_side, aux.piston_side, supply, Relief(190 * bar))
+        back = OilLine(main.rod_side, aux.rod_side, Tank(8 * bar))
+
+    return Flap()
+
+
+@for_all("seed", range(2), slow=range(2, 10))
+def test_a_cylinder_past_its_dead_point_has_the_pressure_of_its_line(seed):
+    machine, angles = flap(seed), np.radians([-5.0, 40.0, 60.0, 80.0])
+    motion = machine.at(phi=angles)
+    first, second = (motion.ratio(distance(*ends)) for ends in ("MP", "NR"))
+    assert first.min() > 0.0 and np.array_equal(second < 0.0, angles > 0.5)
+    ways = {"main": (None, "extending", "retracting"), "aux": (None, "extending", "retracting")}
+    told = {ram: [motion[pressure(ram, direction=way)] for way in each] for ram, each in ways.items()}
+    lifting, lowering = told["main"][0], told["main"][2]
+    assert_allclose(told["aux"][0], lifting, rtol=1e-9)
+    for way, begins, goes_on in ((1, lifting, lowering), (2, lowering, lifting)):
+        assert_allclose(told["aux"][way], np.where(second > 0.0, begins, goes_on), rtol=1e-9)
+    assert_allclose(machine.evaluate([pressure("aux")], phi=angles)[0], lifting, rtol=1e-9)
+    assert_allclose(motion[reserve("aux")], motion[reserve("main")], rtol=1e-9)
+    ends = [machine.answers([least(reserve(ram))], over=Over(phi=(0.6, 1.0)))[0] for ram in ways]
+    assert ends[0].value == pytest.approx(ends[1].value, rel=1e-9)
+    verdicts = [str(each).replace("aux", "main") for each in machine.verdicts()]
+    for rule in ("lifting", "lowering", "holding"):
+        assert len({each for each in verdicts if f" {rule} main" in each}) == 1, rule
+    if not machine["rub.coefficient"]:  # by virtual work
+        (fills, empties), (small, ring) = ((np.pi / 4 * b**2, np.pi / 4 * (b**2 - r**2)) for b, r in ((0.1, 0.056), (0.063, 0.036)))
+        needed = machine["load.mass"] * g0 * 2.3 * np.cos(angles)
+        filled, back = fills * first + small * second, 8 * bar * (empties * first + ring * second)
+        assert_allclose(lifting, (needed / 0.88 + back) / (0.95 * filled), rtol=1e-9)
+        assert_allclose(lowering, (needed * 0.88 + back) / filled, rtol=1e-9)

@@ -25,6 +25,8 @@ MEETS = 1e-6
 """A line ends at a pin, or passes through it, where it comes nearer to it than so much of the size, or than the pin's radius."""
 CHORDS = 16
 """Chords of an arc between two corners."""
+GAP = 0.02
+"""Of a drawing's size: ends of lines that are no farther apart were meant to meet."""
 LINES = "LINE", "LWPOLYLINE", "POLYLINE", "ARC", "ELLIPSE", "SPLINE"
 """What a link is drawn with."""
 
@@ -114,8 +116,10 @@ class DrawingReader:
             found += [(edges[0], True, keys)] if len(keys := self.met(corners)) > 1 else []
             joined += edges
         names, bodies = self.in_parts(found)
+        alone = [each for each, keys in met if len(keys) < 2 and not any(each is edge for edge in joined)]
+        self.tell_gap([end for each in alone for corners in (corners_of(each),) for end in (*corners[:1], *corners[-1:])])
         for each, keys in met:
-            if len(keys) < 2 and not any(each is edge for edge in joined):
+            if any(each is one for one in alone):
                 kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
                 self.leave_out(each, kind, f"with {len(keys)} pins")
         for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
@@ -144,13 +148,14 @@ class DrawingReader:
         owners = {key: {drawn_part(each, blocks) for each in circles} for key, circles in self.circles.items()}
         points, drawn = self.found.points, list[list[str]]()
         told = {points[key].fixed for key, each in owners.items() if blocks or len(each) > 1}
-        for part, (_, closed, keys) in zip(parts, bodies, strict=True):
+        for part, (entity, closed, keys) in zip(parts, bodies, strict=True):
             foreign = [key for key in keys if part not in owners[key] and points[key].fixed in told] if closed else []
             if len(keys) - len(foreign) < 2:
                 foreign = []
             drawn.append([key for key in keys if key not in foreign])
             if foreign:
-                self.found.left_out.append(f"{' '.join(points[key].name for key in foreign)} within {part[1]}, which draws no circle there")
+                where = part[1] or f"an outline of the layer {entity.dxf.layer}"
+                self.found.left_out.append(f"{' '.join(points[key].name for key in foreign)} within {where}, which draws no circle there")
         return ["" if len({*parts}) == 1 else name for _, name in parts], drawn
 
     def met(self, corners: Sequence[Place]) -> list[str]:
@@ -169,6 +174,14 @@ class DrawingReader:
     def is_closed(self, corners: Sequence[Place]) -> bool:
         """Return whether a line ends where it begins, as an outline does."""
         return len(corners) > 3 and dist(corners[0], corners[-1]) <= MEETS * self.found.size
+
+    def tell_gap(self, ends: Sequence[Place]) -> None:
+        """Tell the least gap between two ends of lines that make no outline, where it is so small that it was meant to be none."""
+        limit = MEETS * self.found.size
+        free = [P for place, P in enumerate(ends) if not any(dist(P, Q) <= limit for Q in (*ends[:place], *ends[place + 1 :]))]
+        gap, (x, y) = min(((dist(P, Q), P) for P, Q in combinations(free, 2)), default=(inf, (0.0, 0.0)))
+        if gap < GAP * self.found.size:
+            self.found.notes.append(f"An outline is open by {gap:.3g} near ({x:.6g}, {y:.6g}): let its lines meet, and it is a plate.")
 
     def leave_out(self, entity: Any, kind: str, why: str) -> None:
         """Tell which line is left out and why, and where it ends off each pin."""

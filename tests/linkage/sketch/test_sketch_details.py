@@ -455,6 +455,23 @@ def test_plates_on_one_layer_that_lie_over_each_other_are_told(tmp_path):
     assert "surround two pins or more together" in told and "draw each part in a block or on a layer of its own" in told
 
 
+def test_an_outline_that_is_open_by_a_little_is_told_with_its_place(tmp_path):
+    import ezdxf
+
+    document = ezdxf.new(units=4)
+    space = document.modelspace()
+    corners = [(-30.0, -30.0), (330.0, -30.0), (330.0, 30.0), (-30.0, 30.0)]
+    for P, Q in zip(corners, [(329.2, -30.0), *corners[2:], corners[0]], strict=True):
+        space.add_line(P, Q)
+    for x in (0.0, 300.0):
+        space.add_circle((x, 0.0), 8.0)
+    space.add_line((0.0, 0.0), (300.0, 0.0))
+    space.add_hatch().paths.add_edge_path().add_arc((0.0, 0.0), 10.0)
+    document.saveas(tmp_path / "open.dxf")
+    notes = " ".join(read_sketch(tmp_path / "open.dxf", drives=[]).notes)
+    assert "An outline is open by 0.8 near (329.2, -30): let its lines meet, and it is a plate." in notes
+
+
 def test_a_board_tells_which_forces_it_leaves_out(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "six.toml").write_text(read_sketch(SIX_BAR).to_toml(), encoding="utf-8")

@@ -23,7 +23,7 @@ from ..mechanism import Mechanism
 from ..motion import Motion, drive_kind
 from ..motion.requests import stroke_of
 from ..quantities import Angle, Distance, Quantity, Reference, joined_names, name_of
-from ..statics import applied_elements, applied_loads, axle_load, standing_supports
+from ..statics import applied_elements, applied_loads, axle_load, member_thrust, standing_supports
 from ..statics.applied import AppliedElement, case_of
 from ..statics.holding import Holders, PressureLine, holders_of, same
 from ..vectors import FloatArray, Numbers, Scalar
@@ -280,8 +280,10 @@ class ForceLines:
         levers: dict[PressureLine, dict[str, sympy.Expr]] = {}
         for line in lines:  # the work of a unit of pressure in each line on a unit of each stroke
             names = " and ".join(each.name for each in line.cylinders)
-            shared = f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each."
-            ensure(not line.changes_shares, shared)
+            share = f"{self.plan.title}: {names} share their load by"
+            ensure(not line.changes_shares, f"{share} the sides that work; take thrust(motion) of each.")
+            by_areas = f"{share} their areas beside what a tank pushes; take thrust(motion) of each."
+            ensure(self._is_shared_by_areas(line), by_areas)
             areas = [(each.ends, self._area(line, each)) for each in line.cylinders]
             levers[line] = {name: sympy.Add(*(area * self._chains[name].growths[ends] for ends, area in areas)) for name in strokes}
         needs = {stroke: self.listing.names.scalar(f"Q_{stroke}") for stroke in strokes}
@@ -306,6 +308,14 @@ class ForceLines:
                 name: need - sympy.Add(*(thrust * levers[each][name] for each, thrust in known.items()))
                 for name, need in needs.items() if name not in rows
             }  # fmt: skip
+
+    def _is_shared_by_areas(self, line: PressureLine) -> bool:
+        """Return whether the thrusts of a line's cylinders are as their areas, which a tank's pressure on their other sides changes."""
+        if len(line.cylinders) == 1:
+            return True
+        motion, acting = self._somewhere(), Acting(case=self.case)
+        pressures = np.abs([member_thrust(motion, each, acting) / each.area_in(motion, np.ones(())) for each in line.cylinders])
+        return not np.ptp(pressures) > 1e-9 * pressures.max()
 
     def _area(self, line: PressureLine, cylinder: TwoPoint) -> sympy.Expr:
         """Return the thrust of a cylinder at a unit of its line's pressure; of one that is alone on its line at a unit of its own."""

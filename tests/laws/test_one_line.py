@@ -651,6 +651,8 @@ def test_a_cylinder_past_its_dead_point_has_the_pressure_of_its_line(seed):
     verdicts = [str(each).replace("aux", "main") for each in machine.verdicts()]
     for rule in ("lifting", "lowering", "holding"):
         assert len({each for each in verdicts if f" {rule} main" in each}) == 1, rule
+    with pytest.raises(DefinitionError, match="main and aux share their load by their areas beside what a tank pushes"):
+        equations(machine, forces=True)
     if not machine["rub.coefficient"]:  # by virtual work
         (fills, empties), (small, ring) = ((np.pi / 4 * b**2, np.pi / 4 * (b**2 - r**2)) for b, r in ((0.1, 0.056), (0.063, 0.036)))
         needed = machine["load.mass"] * g0 * 2.3 * np.cos(angles)

@@ -805,7 +805,6 @@ def pressure_range(low: Answer, high: Answer, unit: str) -> str:
     endless = next((each for each in (low, high) if np.isinf(each.value)), None)
     if endless is not None:
         return said("its pressure grows without bounds {where}", where=endless.where)
-    return said(
-        "its pressure goes from {low} {low_where} to {high} {high_where}",
-        low=show(low.value + 0.0, unit, 4), low_where=low.where, high=show(high.value + 0.0, unit, 4), high_where=high.where,
-    )  # fmt: skip
+    least, most = (show(round(float(each.value), 3) + 0.0, unit, 4) for each in (low, high))  # a thousandth of a pascal is rounding
+    by = {"low": least, "low_where": low.where, "high": most, "high_where": high.where}
+    return said("its pressure goes from {low} {low_where} to {high} {high_where}", **by)

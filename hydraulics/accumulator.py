@@ -22,7 +22,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, ensure, require_type
+from linkage.errors import DefinitionError, UnfitError, ensure, require_type
 from linkage.frozen import immutable, keep_own
 from linkage.language import said
 from linkage.loads import Poses
@@ -593,7 +593,7 @@ class AccumulatorBlock:
         if np.any(rigid):
             p, charge = (float(np.broadcast_to(of, rigid.shape)[rigid][0] - self.atmosphere) for of in (pressure, lowest))
             low, least = (show(each, self.unit or "bar", 4) for each in (p, charge))
-            raise DefinitionError(
+            raise UnfitError(
                 f"The block is rigid: charged to {low} gauge it holds no fluid, its lowest gas charge being {least} gauge. "
                 f"Charge the line above {least}, or lower a gas charge."
             )
@@ -609,7 +609,7 @@ class AccumulatorBlock:
         crushed = left <= SMALLEST * gas
         if np.any(crushed):
             there, came = (float(np.broadcast_to(of, crushed.shape)[crushed][0]) / litre for of in (gas, pushed))
-            raise DefinitionError(
+            raise UnfitError(
                 f"Pushing {came:.4g} litres of fluid into a block with {there:.4g} litres of gas leaves no gas; "
                 "take larger accumulators, a lower pressure or a shorter travel."
             )

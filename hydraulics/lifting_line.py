@@ -20,7 +20,7 @@ from typing import Any, Unpack, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, FormerName, UntracedError, ensure, fits_shape, one_word, unwarned
+from linkage.errors import DefinitionError, FormerName, UnfitError, UntracedError, ensure, fits_shape, one_word, unwarned
 from linkage.frozen import immutable
 from linkage.language import said, with_and
 from linkage.loads import AS_IT_RUNS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of
@@ -532,7 +532,7 @@ class LiftLine(Circuit):
         """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
         force, alone = (self._given(motion, each, share) for each in (work, replace(work, others=())))
         if np.any(alone <= 0.0):
-            raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
+            raise UnfitError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
         return force
 
     def _given(self, motion: Poses, work: Work, share: float) -> Array:

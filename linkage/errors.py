@@ -50,6 +50,10 @@ class DefinitionError(LinkageError, ValueError):
     """A class, a file or a setting is impossible. `member` is the name of the member at fault, "" where it is no single one."""
 
 
+class UnfitError(DefinitionError):
+    """The numbers of a design leave no answer, as of a gas block that is too small: a verdict says so, with the remedy."""
+
+
 class LawError(DefinitionError):
     """The law of a load has values over a motion, and cannot be traced into a program."""
 

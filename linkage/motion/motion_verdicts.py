@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..assembly import sketch_words, width_words
-from ..errors import DefinitionError, LinkageError, unwarned
+from ..errors import DefinitionError, LinkageError, UnfitError, unwarned
 from ..language import heading_of, said
 from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
 from ..plan import Mask, Plan, name_or_pins, opening
@@ -153,7 +153,7 @@ def refused_forces(judge: Judge) -> Verdict | None:
     if not any(map(np.ndim, judge.designs.values())) and judge.is_reached:
         try:
             judge._once("verdict questions", lambda: judge.answers(verdict_questions(judge)))
-        except DefinitionError as error:
+        except UnfitError as error:
             return Verdict.refused("forces", error)
     return None
 

@@ -94,7 +94,8 @@ def test_toggles_of_a_triple_rocker():
     limits = FourBar(OA=a, AB=b, CB=c, C=(d, 0)).at(phi=20 * deg).limits()
     toggle = np.arccos((a**2 + d**2 - b**2 - c**2) / (2 * a * d) - b * c / (a * d))
     assert f"{np.degrees(toggle):.6f}" == "58.411864"
-    assert "58.4118645: dead point of B" in str(limits)
+    assert_allclose([value for value, step in limits["phi"].dead_points if step == "B"], [toggle, 2.0 * np.pi - toggle], atol=1e-9)
+    assert "58.4119: dead point of B" in str(limits)
 
 
 class GearedFiveBar(Mechanism):

@@ -118,7 +118,7 @@ USES = [
     ('Vector("A")', "", ("Vector(...): missing a required argument: 'Q'; it takes P, Q.",)),
     ('Turn("v")', "", ("Turn(...): missing a required argument: 'angle'; it takes vector, angle, length.",)),
     ("CosineAngle(1, 2)", "", ("CosineAngle(...): missing a required argument: 'c'; it takes a, b, c.",)),
-    ('Dyad("A", AB=0.3)', "", ("Dyad(...): missing a required argument: 'Q'; it takes", "Q, side, near, at, lengths such as AB=0.3.")),
+    ('Dyad("A", AB=0.3)', "", ("Dyad(...): missing a required argument: 'Q'; it takes", "Q, side, near, at, labels such as AB=0.3.")),
     ('Crank("O", OA=1)', "", ("it takes P, angle, at, lengths such as AB=0.3.",)),
     ('OnGuide("rail")', "", ("OnGuide(...): missing a required argument: 'at'; it takes guide, at.",)),
     ('Slide("C")', "", ("Slide(...): missing a required argument: 'guide'; it takes point, guide.",)),

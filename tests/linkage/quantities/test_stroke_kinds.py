@@ -73,7 +73,7 @@ KINDS = [
     (turned(lambda S, r, swing: S * (70 * deg) + 5 * deg), ""),
     (pushed(lambda S, r, swing: 0.5 + S / 0.01, 2 * litre), "m3"),
 ]
-SHOWN = {"m": ("mm", "kN", "1000"), "rad": ("deg", "Nm", ""), "": ("", "Nm", "1"), "m3": ("l", "Nm", "2")}
+SHOWN = {"m": ("mm", "kN", "1000"), "rad": ("deg", "Nm", ""), "": ("", "Nm", "1"), "m3": ("l", "bar", "2")}
 
 
 @pytest.mark.parametrize(("kind", "unit"), KINDS)

@@ -117,7 +117,7 @@ class DrawingReader:
             joined += edges
         names, bodies = self.in_parts(found)
         alone = [each for each, keys in met if len(keys) < 2 and not any(each is edge for edge in joined)]
-        self.tell_gap([end for each in alone for corners in (corners_of(each),) for end in (*corners[:1], *corners[-1:])])
+        self.tell_gap([corners_of(each) for each, keys in met if not keys and any(each is one for one in alone)])
         for each, keys in met:
             if any(each is one for one in alone):
                 kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
@@ -175,11 +175,13 @@ class DrawingReader:
         """Return whether a line ends where it begins, as an outline does."""
         return len(corners) > 3 and dist(corners[0], corners[-1]) <= MEETS * self.found.size
 
-    def tell_gap(self, ends: Sequence[Place]) -> None:
-        """Tell the least gap between two ends of lines that make no outline, where it is so small that it was meant to be none."""
+    def tell_gap(self, lines: Sequence[Sequence[Place]]) -> None:
+        """Tell the least gap between the ends of two lines that make no outline, where it is so small that it was meant to be none."""
+        ends = [(number, end) for number, corners in enumerate(lines) for end in (*corners[:1], *corners[-1:])]
         limit = MEETS * self.found.size
-        free = [P for place, P in enumerate(ends) if not any(dist(P, Q) <= limit for Q in (*ends[:place], *ends[place + 1 :]))]
-        gap, (x, y) = min(((dist(P, Q), P) for P, Q in combinations(free, 2)), default=(inf, (0.0, 0.0)))
+        free = [(k, P) for k, P in ends if all(dist(P, Q) > limit for other, Q in ends if other != k)]
+        gaps = ((dist(P, Q), P) for (k, P), (other, Q) in combinations(free, 2) if k != other)
+        gap, (x, y) = min(gaps, default=(inf, (0.0, 0.0)))
         if gap < GAP * self.found.size:
             self.found.notes.append(f"An outline is open by {gap:.3g} near ({x:.6g}, {y:.6g}): let its lines meet, and it is a plate.")
 

@@ -465,6 +465,8 @@ def test_an_outline_that_is_open_by_a_little_is_told_with_its_place(tmp_path):
         space.add_line(P, Q)
     for x in (0.0, 300.0):
         space.add_circle((x, 0.0), 8.0)
+        space.add_line((x, -1.0), (x, 1.0))  # its centre's mark, and a tick beside it
+        space.add_line((x, 20.0), (x, 20.1))
     space.add_line((0.0, 0.0), (300.0, 0.0))
     space.add_hatch().paths.add_edge_path().add_arc((0.0, 0.0), 10.0)
     document.saveas(tmp_path / "open.dxf")

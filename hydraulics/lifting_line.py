@@ -137,14 +137,13 @@ class Work:
         return np.asarray(self.sense * self.turn * self.leads >= 0.0)[()]
 
     def turned(self, other: Work) -> Work:
-        """Return the same with the thrusts and the sense of another direction where its line empties."""
+        """Return the same with the thrusts of another direction where its line empties."""
         back = self.leads < 0.0
         others = tuple(
             (replace(one, thrust=np.where(back, each.thrust, one.thrust)), weight)
             for (one, weight), (each, _) in zip(self.others, other.others, strict=True)
         )
-        sense = np.where(back, other.sense, self.sense)
-        return replace(self, thrust=np.where(back, other.thrust, self.thrust), sense=sense, others=others)
+        return replace(self, thrust=np.where(back, other.thrust, self.thrust), others=others)
 
     @property
     def force(self) -> Array:
@@ -428,6 +427,9 @@ class LiftLine(Circuit):
         if goes is not None and found.others:  # where it stands, all together hold the load
             found = replace(found, sense=np.where(goes == 0.0, found.turn * found.leads * np.sign(found.along), found.sense))
         if is_said or goes is not None or not found.others or work.size.works == "both":
+            return found
+        found = replace(found, sense=found.turn * found.leads)  # as the line fills, whichever way its own length goes
+        if not changes_in_motion(motion, acting.loads):
             return found
         (other,) = {"extending", "retracting"} - {acting.direction}
         return found.turned(self.work_of_all(cylinder, motion, acting.towards(other)))

@@ -291,10 +291,11 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     for name, stroke in judge.plan.strokes.items():
         low, high = sorted((stroke.start, stroke.end))
         run, room = np.concatenate([np.ravel(place.motion.strokes[name]) for place in judge.places]), 1e-3 * (high - low)
+        declared = f"{name} = {span_text([low, high], stroke_unit(judge.plan, name))}"
         if np.any((run < low - room) | (run > high + room)):
-            beyond.append(f"{name} = {span_text([low, high], stroke_unit(judge.plan, name))}")
+            beyond.append(declared)
         elif 0.0 < np.ptp(run) < SCARCELY * (high - low):
-            scarcely.append(f"{name} = {span_text([low, high], stroke_unit(judge.plan, name))}")
+            scarcely.append(declared)
     text = f"{text} {said('It runs beyond the declared {strokes}.', strokes=', '.join(beyond))}" if beyond else text
     if scarcely:
         text += " " + said("Of the declared {strokes} it runs less than 1 %: are lengths in m, angles in rad?", strokes=", ".join(scarcely))

@@ -116,12 +116,11 @@ class DrawingReader:
             found += [(edges[0], True, keys)] if len(keys := self.met(corners)) > 1 else []
             joined += edges
         names, bodies = self.in_parts(found)
-        alone = [each for each, keys in met if len(keys) < 2 and not any(each is edge for edge in joined)]
-        self.tell_gap([corners_of(each) for each, keys in met if not keys and any(each is one for one in alone)])
-        for each, keys in met:
-            if any(each is one for one in alone):
-                kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
-                self.leave_out(each, kind, f"with {len(keys)} pins")
+        alone = [(each, keys) for each, keys in met if len(keys) < 2 and not any(each is edge for edge in joined)]
+        self.tell_gap([corners_of(each) for each, keys in alone if not keys])
+        for each, keys in alone:
+            kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
+            self.leave_out(each, kind, f"with {len(keys)} pins")
         for number, keys in enumerate(bodies):  # a line drawn twice, or an edge of a plate, is no body of its own
             wider = next((other for other in bodies if {*keys} < {*other}), None)
             if wider is not None:

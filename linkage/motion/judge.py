@@ -102,6 +102,11 @@ class SearchRow:
     situation: Situation
     sense: float
 
+    @classmethod
+    def alone(cls, leaf: Leaf) -> SearchRow:
+        """Return the row of a leaf as it stands, whole and in no situation but its own."""
+        return cls(leaf, SmoothPiece(leaf.quantity), Situation(), leaf.sense)
+
     @property
     def is_reciprocal(self) -> bool:
         """Whether one over it is looked for."""
@@ -643,7 +648,7 @@ class Judge:
 
     def parts_below(self, request: Request) -> tuple[Span, ...]:
         """Return the parts of its one way on which a request is below zero; DefinitionError for a batch of designs."""
-        asked = RowFunction(self.places[0], [SearchRow(Least(request), SmoothPiece(request), Situation(), -1.0)])
+        asked = RowFunction(self.places[0], [SearchRow.alone(Least(request))])
         way, key = self.places[0].motion, identity_of(self.plan, request)
 
         def found() -> tuple[Span, ...]:
@@ -755,7 +760,7 @@ class Judge:
         apart = {At: self.at_pose, Integral: integrated}
         sought = [row for key, each in rows.items() if type(asked[key]) not in apart for row in each]
         if sought or not self._seen[number].count:
-            each_of, seen = place.extremes(sought or [SearchRow(Least(zeros_over), SmoothPiece(zeros_over), Situation(), -1.0)])
+            each_of, seen = place.extremes(sought or [SearchRow.alone(Least(zeros_over))])
             known_seen = self._seen[number]
             self._seen[number] = replace(known_seen, count=known_seen.count + seen.count) if known_seen.count else seen
             found = dict(zip(map(id, sought), each_of, strict=False))

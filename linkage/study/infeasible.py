@@ -137,7 +137,7 @@ def given_way(problem: Problem, start: SearchEnd, elastic: Sequence[Constraint])
         problem.assembled(machine)
     except LinkageError:
         return None
-    values = problem.truths(machine.dimensions, quick=True) if is_line else local.numbers(found.unit)
+    values = problem.truths(machine.dimensions) if is_line else local.evaluated_at(found.unit).of_one
     prices = multipliers(local, found.unit)[0] if problem.space.variables else np.zeros(len(problem.constraints))
     relaxations, pulling, total = [], [], 0.0
     scales = scales_of(problem, problem.evaluated(machine.dimensions, slopes=True))

@@ -168,25 +168,6 @@ class Sampling:
         return found
 
 
-def rows_of_motion(plan: Plan, quantities: Sequence[object]) -> Callable[[Motion], FloatArray]:
-    """Return quantities as one function of a motion (k, ...): by the plan's program, those that are no part of it as the motion gives them.
-
-    Poses out of reach have no value.
-    """
-    found = [(place, traced(plan, each)) for place, each in enumerate(quantities)]
-    requests = tuple(request for _, request in found if request is not None)
-
-    def values(motion: Motion) -> FloatArray:
-        rows = np.empty((len(quantities), *motion.shape))
-        with unwarned(), np.errstate(all="ignore"):
-            known = iter(evaluate_bound(Evaluation(motion._grid, requests), None, "nan")) if requests else iter(())
-        for place, request in found:
-            rows[place] = eager(motion, quantities[place]) if request is None else np.where(motion.reached, next(known), np.nan)
-        return rows
-
-    return values
-
-
 # Where there is no value.
 
 

@@ -7,7 +7,7 @@ Source: R. Hettich, K. O. Kortanek, Semi-infinite programming, SIAM Review 35 (1
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -16,21 +16,22 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, StudyError, cited, ensure, is_listed, known_name, require_type
-from ..frozen import FrozenDict, immutable
+from ..errors import DefinitionError, StudyError, cited, ensure, is_listed, known_name, require_type, unwarned
+from ..frozen import immutable
 from ..mechanism import Mechanism
-from ..motion import Constraint, Grid, Leaf, Measure, Motion, Request, greatest
+from ..motion import Constraint, Grid, Leaf, Measure, Motion, Over, Request
 from ..motion.grid import JoinedTo, joined_in_order, varies
+from ..motion.judge import Domain, SearchRow
 from ..motion.measures import At, CombinedMeasure, FixedNumber, Integral, Least, Most, Worst, check_kinds, strokes_behind, traced, words_of
 from ..motion.strokes import check_magnitude
 from ..numeric.quadrature import PANELS, Quadrature, gauss, quadrature
-from ..plan import Mask, Plan, require_kind
+from ..plan import Mask, require_kind
 from ..program import Enclosure, FloatArray, Node, enclosures
 from ..quantities import Quantity, is_number
 from ..vectors import Numbers
 from .checkpoint import measure_text
 from .designs import DesignValues
-from .measured import Samples, Sampling, divisors_of, eager, motion_of, nothing_limits, rows_of_motion, with_values
+from .measured import Samples, Sampling, divisors_of, with_values
 from .space import Space
 from .variants import Range, on_sides, variant
 
@@ -155,6 +156,18 @@ class Rows:
     lost: Mask
 
 
+class LeafNumbers(dict[Leaf, float]):
+    """The leaves' numbers of one design; `lost` are those that have no value at a pose.
+
+    `parts` say of extremes that are looked for between the poses where they are, in parts (0 to 1) of the strokes' ranges.
+    """
+
+    def __init__(self, numbers: Mapping[Leaf, float], lost: Iterable[Leaf] = ()) -> None:
+        super().__init__(numbers)
+        self.lost = {*lost}
+        self.parts: dict[Leaf, Mapping[str, float]] = {}
+
+
 @immutable
 class Evaluated:
     """One design or several looked at: the rows of each leaf, margins (m, r), whether all is reached (m,); of one also derivatives."""
@@ -176,9 +189,10 @@ class Evaluated:
         return found
 
     @property
-    def of_one(self) -> dict[Leaf, float]:
-        """The leaves' numbers of one design."""
-        return {leaf: float(values[0]) for leaf, values in self.numbers.items()}
+    def of_one(self) -> LeafNumbers:
+        """The leaves' numbers of one design at the samples."""
+        numbers = {leaf: float(values[0]) for leaf, values in self.numbers.items()}
+        return LeafNumbers(numbers, [leaf for leaf, rows in self.rows.items() if rows.lost[0]])
 
     @property
     def leaf_sizes(self) -> dict[Leaf, float]:
@@ -194,9 +208,6 @@ class Evaluated:
     def lost_of(self, measure: Measure) -> Mask:
         """Return of which designs (m,) a leaf of a measure is lost."""
         return np.asarray(np.any([self.rows[leaf].lost for leaf in measure.leaves], axis=0))
-
-
-NO_PARTS: Mapping[str, float] = FrozenDict()
 
 
 class LimitReachedError(StudyError):
@@ -229,58 +240,6 @@ class Count:
             yield
         finally:
             self.limit = kept
-
-
-class LeafNumbers(dict[Leaf, float]):
-    """The leaves' numbers of one design; `lost` are those that have no value at a pose.
-
-    `parts` say of extremes where they are, in parts (0 to 1) of the strokes' ranges.
-    """
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.lost: set[Leaf] = set()
-        self.parts: dict[Leaf, Mapping[str, float]] = {}
-
-    def enter_number(self, leaf: Leaf, value: float, *, lost: object, parts: Mapping[str, float] = NO_PARTS) -> None:
-        """Note the number of a leaf, and whether it is lost."""
-        self[leaf], self.parts[leaf] = value, parts
-        if lost:
-            self.lost.add(leaf)
-
-
-class WatchedValues:
-    """Quantities as one function of a motion, (k, ...), that notes which had no value where it is reached, or a divisor that passes zero.
-
-    Each is turned by its sense, 1.0 or -1.0, so that of all of them the greatest is looked for. `quick`: by the plan's program.
-    """
-
-    def __init__(self, plan: Plan, quantities: Sequence[object], senses: Sequence[float], *, quick: bool) -> None:
-        self.quantities, self.senses = quantities, np.array(senses)
-        self._quickly = rows_of_motion(plan, quantities) if quick else None
-        self._owners = [(place, divisor) for place, each in enumerate(quantities) for divisor in divisors_of(plan, each)]
-        self._divisors = rows_of_motion(plan, [divisor for _, divisor in self._owners]) if self._owners else None
-        self._low, self._high = (np.full(len(self._owners), end) for end in (np.inf, -np.inf))
-        self._is_empty = np.zeros(len(quantities), bool)
-
-    def __call__(self, motion: Motion) -> FloatArray:
-        found = self._quickly(motion) if self._quickly else np.array([eager(motion, each) for each in self.quantities])
-        empty = np.isnan(found) & motion.reached
-        for place in np.flatnonzero(empty.reshape(len(found), -1).any(axis=1) & ~self._is_empty):
-            self._is_empty[place] = bool((empty[place] & ~nothing_limits(motion, self.quantities[int(place)])).any())
-        if self._divisors:
-            values = self._divisors(motion)[:, motion.reached]
-            self._low = np.fmin(self._low, np.fmin.reduce(values, axis=1, initial=np.inf))
-            self._high = np.fmax(self._high, np.fmax.reduce(values, axis=1, initial=-np.inf))
-        return np.asarray(found * self.senses.reshape(-1, *(1,) * (found.ndim - 1)))
-
-    @property
-    def without_value(self) -> Mask:
-        """Which of them are without a value somewhere, shape (k,)."""
-        found = np.array(self._is_empty)
-        for (place, _), low, high in zip(self._owners, self._low, self._high, strict=True):
-            found[place] |= low <= 0.0 <= high
-        return found
 
 
 class Problem:
@@ -688,59 +647,36 @@ class Problem:
 
     # -- the whole truth ---------------------------------------------------------------------------------
 
-    def truths(self, design: Mapping[str, Numbers], *, quick: bool = False) -> LeafNumbers:
-        """Return the values of all leaves of one design, between the poses too.
-
-        As a motion gives them, or `quick` by the plan's program, which the search itself follows.
-        """
-        found = LeafNumbers()
+    def truths(self, design: Mapping[str, Numbers]) -> LeafNumbers:
+        """Return the values of all leaves of one design, between the poses too, as the judge looks for them."""
+        found, ends = LeafNumbers({}), self.ends(design)
         between: dict[tuple[str, ...], list[Leaf]] = {}
         sampled: list[Leaf] = []
         for leaf in self.leaves:
-            poses, _, single = self._of_leaf[leaf]
-            if leaf.sense and poses.axes and not poses.inner:
-                between.setdefault(tuple(poses.axes), []).append(leaf)
-            elif isinstance(leaf, At) and not poses.inner and not quick:
-                alone = PoseSet({}, [poses.singles[single]])
-                here = motion_of(self._grid(alone, design, self._ends(design)))
-                value = float(np.ravel(eager(here, leaf.quantity))[0])
-                found.enter_number(leaf, value, lost=np.isnan(value) and not nothing_limits(here, leaf.quantity).all())
-            else:
-                sampled.append(leaf)
+            poses, *_ = self._of_leaf[leaf]
+            is_between = leaf.sense and poses.axes and not poses.inner
+            (between.setdefault(tuple(poses.axes), []) if is_between else sampled).append(leaf)
         if sampled:
             self.count.add(len(sampled) - 1)  # as many looks as there are numbers
-            look = self.evaluated(design)
-            values = look.of_one
-            for leaf in sampled:
-                value = values[leaf]
-                if isinstance(leaf, Integral):
-                    low, high = self.ends(design)[self._of_leaf[leaf][0].outer[0]]
-                    value = float(self.panels(leaf, design).value) * (high - low)
-                found.enter_number(leaf, value, lost=look.lost_of(leaf)[0])
+            found = self.evaluated(design).of_one
+        for leaf in sampled:
+            if isinstance(leaf, Integral):
+                low, high = ends[self._of_leaf[leaf][0].outer[0]]
+                found[leaf] = float(self.panels(leaf, design).value) * (high - low)
         for names, leaves in between.items():
-            self._note_extremes(found, leaves, design, names, quick=quick)
+            box: dict[str, Any] = {name: end if name in names else end[0] for name, end in ends.items()}
+            owners = [(leaf, divisor) for leaf in leaves for divisor in divisors_of(self.plan, leaf.quantity)]
+            asked = [*leaves, *(kind(divisor) for _, divisor in owners for kind in (Least, Most))]
+            with unwarned():
+                seen, _ = Domain(self.plan, design, Over(**box)).searched([SearchRow.alone(leaf) for leaf in asked])
+            for leaf, each in zip(leaves, seen, strict=False):
+                spans = {name: (ends[name][0], ends[name][1] - ends[name][0]) for name in names}
+                found.parts[leaf] = {name: (float(each.strokes[name]) - low) / (span or 1.0) for name, (low, span) in spans.items()}
+                found[leaf] = float(each.value)
+                found.lost.update([leaf] if each.lawless else [])
+            lows, highs = (seen[len(leaves) + end :: 2] for end in (0, 1))
+            found.lost.update(leaf for (leaf, _), low, high in zip(owners, lows, highs, strict=True) if low.value <= 0.0 <= high.value)
         return found
-
-    def _note_extremes(
-        self, found: LeafNumbers, leaves: Sequence[Leaf], design: Mapping[str, Numbers], names: Sequence[str], *, quick: bool
-    ) -> None:
-        """Note the extremes of one design over some strokes, all looked for together."""
-        poses = PoseSet({name: np.linspace(0.0, 1.0, 33 if len(names) == 1 else 5) for name in names})
-        motion = motion_of(self._grid(poses, design, self._ends(design)))
-        senses = [leaf.sense for leaf in leaves]
-        watched = WatchedValues(self.plan, [leaf.quantity for leaf in leaves], senses, quick=quick)
-        tops = greatest(motion, watched)
-        parts: list[dict[str, float]] = [{} for _ in leaves]
-        for name in names:
-            values, given = motion.strokes[name], self.ranges[name]
-            low, high = float(values.min()), float(values.max())
-            turned = is_number(given.low) and is_number(given.high) and given.low > given.high
-            for own, place in zip(parts, np.ravel(tops.strokes[name]), strict=True):
-                part = (float(place) - low) / (high - low) if high > low else 0.0
-                own[name] = 1.0 - part if turned else part
-        values = np.ravel(tops.value) * senses
-        for leaf, value, own, lost in zip(leaves, values, parts, watched.without_value, strict=True):
-            found.enter_number(leaf, float(value), lost=lost, parts=own)
 
     def tops(self, leaf: Leaf, design: Mapping[str, Numbers]) -> list[dict[str, float]]:
         """Return where between its samples a leaf of one design has tops that come near its worst value: the part of its stroke's range."""

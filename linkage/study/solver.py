@@ -511,15 +511,7 @@ class Local:
             look = self.evaluated_at(unit)
         if not bool(look.is_assembled[0]) or not self._usable(look):
             return None
-        values = self.numbers(unit)
-        return self._end(unit, values)
-
-    def numbers(self, unit: FloatArray) -> LeafNumbers:
-        """Return the leaves' numbers at the samples of unit coordinates."""
-        look, found = self.evaluated_at(unit), LeafNumbers()
-        for leaf, value in look.of_one.items():
-            found.enter_number(leaf, value, lost=look.rows[leaf].lost[0])
-        return found
+        return self._end(unit, look.of_one)
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:
         """Return unit coordinates; where these cannot be worked with, the last ones on the way from the good ones to them that can."""
@@ -537,7 +529,7 @@ class Local:
 
         Poses that are added make a design only worse, so that they lead to nothing better either.
         """
-        if not self.known or not (here := self._end(unit, self.numbers(unit))).feasible:
+        if not self.known or not (here := self._end(unit, self.evaluated_at(unit).of_one)).feasible:
             return None
         worse = ((each, self.problem.sense * (here.value - each.value) / max(abs(each.value), 1e-300)) for each in self.known)
         return next((each for each, by in worse if -0.1 * MET <= by <= SAME), None)
@@ -578,9 +570,9 @@ class Local:
         look = self.evaluated_at(unit)
         if not bool(look.is_assembled[0]):
             return SearchEnd(self.combination, unit, np.nan, np.inf, False), False
-        known, truths, worse = look.of_one, problem.truths(design, quick=True), False
-        for leaf, value in truths.items():
-            if leaf.sense and self._is_worse(leaf, value, known[leaf]) and problem.refined(leaf, truths.parts[leaf]):
+        known, truths, worse = look.of_one, problem.truths(design), False
+        for leaf, parts in truths.parts.items():
+            if self._is_worse(leaf, truths[leaf], known[leaf]) and problem.refined(leaf, parts):
                 worse = True
         if worse:
             self._looks.clear()

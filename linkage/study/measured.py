@@ -24,6 +24,7 @@ from ..motion.functions import evaluate_bound
 from ..motion.grid import JoinedTo, angles_of
 from ..motion.measures import At, Integral, Leaf, Measure, bound_quantity, constant_part, operation, strokes_behind, traced, words_of
 from ..motion.requests import Trait, may_be_unlimited, slope
+from ..motion.search import corners
 from ..numeric.line import Index
 from ..numeric.quadrature import PANELS, gauss, quadrature
 from ..plan import Mask, Plan
@@ -358,10 +359,7 @@ class StudyPoses:
         if isinstance(leaf, Integral):
             row, weights = self.integral_poses(leaf)
             return np.asarray((row.values(machine, leaf.quantity, way) * weights).sum(axis=1))
-        total: float | FloatArray = fold_start(leaf)
-        for column in self.values(machine, leaf.quantity, way).T:
-            total = fold(leaf, total, column)
-        return np.asarray(total)
+        return np.asarray(extreme_of(leaf).reduce(self.values(machine, leaf.quantity, way), axis=1))
 
     def at(self, leaf: At) -> StudyPoses:
         """Return the pose of a value at one pose; DefinitionError where a stroke is not said."""
@@ -383,13 +381,7 @@ class StudyPoses:
         if by not in self.stroke_values or len(self.base.shape) != 1:
             names = ", ".join(self.stroke_values)
             raise DefinitionError(f"{plan.title}: {leaf}: give one row of strokes, and say by which, by= one of {names}.")
-        moving = [value for value in self.stroke_values.values() if np.ptp(value) > 0.0]
-        turns = [*range(self.pose_count)] if moving else [0, self.pose_count - 1]
-        if len(moving) == 1:  # the first pose, those at which the way turns, and the last
-            changes = np.diff(moving[0])
-            steps = np.flatnonzero(changes)
-            signs = np.sign(changes[steps])
-            turns = [0, *steps[1:][signs[1:] != signs[:-1]].tolist(), self.pose_count - 1]
+        turns = corners(np.array([value / (np.ptp(value) or 1.0) for value in self.stroke_values.values()]))
         legs = [self._leg(leaf, by, ends, max(PANELS // (len(turns) - 1), 1)) for ends in pairwise(turns)]
         strokes = {name: np.concatenate([poses[name] for poses, _ in legs]) for name in self.stroke_values}
         self._rows[leaf] = StudyPoses(Motion(plan, designs, strokes, "nan")), np.concatenate([weights for _, weights in legs])
@@ -501,7 +493,7 @@ def nothing_limits(motion: Motion, quantity: Any) -> Mask:
     return np.asarray(np.broadcast_to(False if found is None else found, motion.shape), bool)
 
 
-# What a measure takes of its quantity, pose by pose.
+# What a measure takes of its quantity at several poses.
 
 
 def check_no_worst(leaf: Leaf) -> None:
@@ -510,13 +502,7 @@ def check_no_worst(leaf: Leaf) -> None:
     ensure(not leaf.worst_over, f"{leaf}: {what}; take most(...) over a grid of both strokes.")
 
 
-def fold_start(leaf: Leaf) -> float:
-    """Return the start value of an extreme before the first pose; DefinitionError for one over another stroke."""
+def extreme_of(leaf: Leaf) -> np.ufunc:
+    """Return NumPy's function for the greatest or least value, NaN where one is; DefinitionError for one over another stroke."""
     check_no_worst(leaf)
-    return np.inf if leaf.sense < 0.0 else -np.inf
-
-
-def fold(leaf: Leaf, total: Any, values: FloatArray) -> FloatArray:
-    """Return an extreme after one more pose; NaN where one of them has no value."""
-    best = np.minimum if leaf.sense < 0.0 else np.maximum
-    return np.asarray(best(total, values, out=total if isinstance(total, np.ndarray) else None))
+    return np.minimum if leaf.sense < 0.0 else np.maximum

@@ -21,7 +21,7 @@ from ..program import RunOptions
 from ..quantities import is_number
 from ..units import display_unit
 from ..vectors import FloatArray, Index, Mask, Numbers
-from .measured import Measured, StudyPoses, fold, fold_start, measured_title, nothing_limits, number_bound
+from .measured import Measured, StudyPoses, check_no_worst, extreme_of, measured_title, nothing_limits, number_bound
 from .optimum import constraint_words
 from .space import check_in_count
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, tolerance_words, tolerances_of, values_shifted
@@ -307,9 +307,12 @@ def in_situations(condition: Constraint, counted: Callable[[Sequence[Leaf]], lis
 
 
 def leaves_measured(asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> list[Leaf]:
-    """Return the leaves of all measures that are asked for and of the conditions, each once."""
+    """Return the leaves of all measures that are asked for and of the conditions, each once; DefinitionError for one over another stroke."""
     measures = [each for each in asked.values() if isinstance(each, Measure)] + [each.margin for each in conditions]
-    return list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
+    found = list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
+    for leaf in found:
+        check_no_worst(leaf)
+    return found
 
 
 # The designs, block by block, and what is kept of them: of the results themselves nothing.
@@ -332,7 +335,7 @@ class MonteCarloRun:
     def measure(self, asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> None:
         """Measure quantities and conditions of all designs."""
         leaves = leaves_measured(asked, conditions)
-        self._leaves = {leaf: fold_start(leaf) for leaf in leaves if leaf.sense}
+        self._leaves = {leaf: -leaf.sense * np.inf for leaf in leaves if leaf.sense}
         every = [each for each in asked.values() if not isinstance(each, Measure)] + [leaf.quantity for leaf in self._leaves]
         quantities = self._asked = {self._key(each): each for each in every}
         bound = [key for key, each in quantities.items() if number_bound(self.poses.base.plan, each) is not None]
@@ -407,9 +410,8 @@ class MonteCarloRun:
             for leaf in [each for each in self._leaves if self._key(each.quantity) == key]:
                 if free.any():
                     self._unlimited[leaf] = self._unlimited.get(leaf, 0) + free.sum(axis=0)
-                    rows = np.where(free, fold_start(leaf), rows)
-                for column in rows:
-                    self._leaves[leaf] = fold(leaf, self._leaves[leaf], column)
+                    rows = np.where(free, -leaf.sense * np.inf, rows)
+                self._leaves[leaf] = extreme_of(leaf)(self._leaves[leaf], extreme_of(leaf).reduce(rows, axis=0))
         columns = [column for row in store for column in row]
         moments = np.array(self._on_threads(self._moments, columns)).reshape(*store.shape[:2], -1)
         for key, each in zip(keys, moments, strict=True):

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, cast
 
 import numpy as np
 
-from ..errors import StudyError, unwarned
-from ..motion import Motion
+from ..errors import StudyError
 from ..motion.judge import MET
 from ..motion.measures import At, Measure, words_of
 from ..program import FloatArray
@@ -29,38 +27,37 @@ def check_bounded(problem: Problem, now: LeafNumbers, best: SearchEnd) -> None:
 
     `now` are the numbers of the best design. A pole at which the objective is worse than there is none.
     """
-    problem, combination, unit = problem.sampled_apart(problem.counts, counted=False), best.combination, best.unit
-    asked, named = divisors(problem.objectives), f"{problem.plan.title}: {', '.join(map(str, problem.objectives))}"
-    n = len(problem.space.variables)
-    parts = (0.1, 0.5, 0.9) if asked else ()
-    looks = [problem.evaluated(problem.dimensions_at(np.full(n, part), combination)).leaf_sizes for part in parts]
-    sizes = {leaf: max(look[leaf] for look in looks) for leaf in problem.leaves} if asked else {}
+    named, combination, unit = f"{problem.plan.title}: {', '.join(map(str, problem.objectives))}", best.combination, best.unit
+    asked, n, remedy = divisors(problem.objectives), len(problem.space.variables), "subject_to=[{} >= ...]"
+    at_poses = {leaf for each in problem.objectives for leaf in each.leaves if isinstance(leaf, At)}
+    inner = [At(each, leaf.strokes) for leaf in at_poses for each in divisors_of(problem.plan, leaf.quantity)]
+    wider = problem.changed(objectives=[*problem.objectives, *asked, *inner], count=None)
+    looks = [wider.evaluated(wider.dimensions_at(np.full(n, part), combination)).leaf_sizes for part in ((0.1, 0.5, 0.9) if asked else ())]
     for each in asked:
         small = abs(float(each.from_leaves(lambda leaf: now[leaf])))
-        if small <= NEXT_TO_NOTHING * terms_size(each, sizes, now):
-            raise boundless_error(named, each, "subject_to=[{} >= ...]")
+        if small <= NEXT_TO_NOTHING * terms_size(each, {leaf: max(look[leaf] for look in looks) for leaf in each.leaves}, now):
+            raise boundless_error(named, each, remedy)
     units = np.concatenate([unit[None], unit_points(SPREAD, n, "sobol", 0)])
-    seen = values_at(problem, units, combination)
-    known = np.abs(seen["objective"][np.isfinite(seen["objective"])])
+    worth, seen = values_at(wider, units, combination, len(problem.objectives))
+    known = np.abs(worth[np.isfinite(worth)])
     if known.size and abs(float(problem.value(lambda leaf: np.float64(now[leaf])))) > FAR * max(float(np.median(known)), TINY):
         raise boundless_error(named, None, "")
-    for name, each in zip([key for key in seen if key != "objective"], divided_by(problem), strict=True):
-        signs = np.sign(seen[name])
+    for row, each in enumerate([*asked, *inner]):
+        signs = np.sign(seen[row])
         other = np.flatnonzero(signs == -signs[0])
         if not other.size:
             continue
         ends = np.stack([unit, units[other[0]]])  # two designs between which it passes zero
-        usual = abs(values_at(problem, unit[None], combination)["objective"][0])
         for _ in range(HALVINGS):
             middle = 0.5 * (ends[0] + ends[1])
-            near = values_at(problem, np.stack([*ends, middle]), combination)[name]
-            if not np.isfinite(near[2]):
+            first, _, near = values_at(wider, np.stack([*ends, middle]), combination, len(problem.objectives))[1][row]
+            if not np.isfinite(near):
                 break
-            ends[int(np.sign(near[2]) != np.sign(near[0]))] = middle
+            ends[int(np.sign(near) != np.sign(first))] = middle
         else:
-            found = problem.sense * values_at(problem, ends, combination)["objective"]
-            if np.any(found < -FAR * max(float(usual), TINY)):
-                raise boundless_error(named, each, "subject_to=[{} >= ...]")
+            found = problem.sense * values_at(wider, ends, combination, len(problem.objectives))[0]
+            if np.any(found < -FAR * max(float(abs(worth[0])), TINY)):
+                raise boundless_error(named, each, remedy)
 
 
 def boundless_error(named: str, divisor: object, remedy: str) -> StudyError:
@@ -73,27 +70,14 @@ def boundless_error(named: str, divisor: object, remedy: str) -> StudyError:
     return StudyError(f"{named} {text}, or take vary= narrower.")
 
 
-def divided_by(problem: Problem) -> list[Measure]:
-    """Return the measures that objectives are divided by, those within values at one pose too."""
-    at_poses = {leaf for each in problem.objectives for leaf in each.leaves if isinstance(leaf, At)}
-    inner = [At(each, leaf.strokes) for leaf in at_poses for each in divisors_of(problem.plan, leaf.quantity)]
-    return [*divisors(problem.objectives), *inner]
+def values_at(problem: Problem, units: FloatArray, combination: Sequence[int], many: int) -> tuple[FloatArray, FloatArray]:
+    """Return the worst of the first `many` objectives of designs (m, n), (m,), and the others (k, m).
 
-
-def values_at(problem: Problem, units: FloatArray, combination: Sequence[int]) -> dict[str, FloatArray]:
-    """Return the objective and its divisors at designs (m, n), each (m,); NaN where one cannot be assembled or misses much."""
-    designs = problem.dimensions_at(units, combination)
-    look = problem.evaluated(designs)
-    numbers, found, nothing = dict(look.numbers), {}, np.zeros(len(units))
-    with unwarned(), np.errstate(all="ignore"):
-        found["objective"] = problem.value(numbers.__getitem__) + nothing
-        for number, each in enumerate(divided_by(problem)):
-            if isinstance(each, At) and each not in numbers:
-                start = {name: stroke.start for name, stroke in problem.plan.strokes.items()} | dict(each.strokes)
-                motion = Motion(problem.plan, designs, {name: np.asarray(value, float) for name, value in start.items()}, "nan")
-                numbers[each] = np.ravel(np.asarray(motion.value(cast(Any, each.quantity)), float))
-            found[f"divisor {number}"] = each.from_leaves(numbers.__getitem__) + nothing
-        spare = [each.margin.from_leaves(numbers.__getitem__) + nothing for each in problem.constraints]
-    kept = np.all([margin >= -MET for margin in spare], axis=0) if spare else np.ones(len(units), bool)
-    whole = np.broadcast_to(np.asarray(look.is_assembled, bool), (len(units),))
-    return {name: np.where(whole & kept, value, np.nan) for name, value in found.items()}
+    NaN where one has no value, or a design cannot be assembled or misses much.
+    """
+    look = problem.evaluated(problem.dimensions_at(units, combination))
+    with np.errstate(all="ignore"):
+        spare = [each.margin.from_leaves(look.numbers.__getitem__) for each in problem.constraints]
+    kept = np.all([look.is_assembled, *(np.broadcast_to(each >= -MET, len(units)) for each in spare)], axis=0)
+    values = np.where(kept, [look.values_of(each) for each in problem.objectives], np.nan)
+    return (values[:many].max(axis=0) if problem.sense > 0.0 else values[:many].min(axis=0)), values[many:]

@@ -307,7 +307,7 @@ def in_situations(condition: Constraint, counted: Callable[[Sequence[Leaf]], lis
 
 
 def leaves_measured(asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> list[Leaf]:
-    """Return the leaves of all measures that are asked for and of the conditions, each once; DefinitionError for one over another stroke."""
+    """Return the leaves of all measures and conditions that are asked for, each once; DefinitionError for one over another stroke."""
     measures = [each for each in asked.values() if isinstance(each, Measure)] + [each.margin for each in conditions]
     found = list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
     for leaf in found:

@@ -34,7 +34,8 @@ REAL, SAME = 1e-6, 1e-7
 BEGIN, LEAST_STEP, STEPS = 0.05, 1e-9, 1500
 CLOSE, NEAR = 1e-9, 1e-3
 """Corrections of a path's place, as parts of it: the last one may be so large, and the first."""
-POLISHED = 1e-12
+TURNED = 1e-10
+"""How far a turning of the coupler may be from one in size."""
 
 System: TypeAlias = Callable[[ComplexArray, FloatArray], tuple[ComplexArray, ComplexArray]]
 """Values (m, 4) and derivatives (m, 4, 6) at places (m, 6) and times (m,) from 0 to 1."""
@@ -308,27 +309,21 @@ def is_closed(z: ComplexArray) -> bool:
 
 
 def real_ones(z: ComplexArray, own: ComplexArray) -> list[tuple[complex, complex]]:
-    """Return the real ones of solutions (n, 4), x and y, made exact by Newton's method."""
-    real = [(x, y) for x, X, y, Y in z if abs(X - np.conj(x)) + abs(Y - np.conj(y)) <= REAL * max(abs(x), abs(y), 1.0)]
-    return [exact for exact in (exact_pins(x, y, own) for x, y in real) if exact is not None]
-
-
-def exact_pins(x: complex, y: complex, own: ComplexArray) -> tuple[complex, complex] | None:
-    """Return x and y with the coupler's four turnings made exact; None where these are none."""
-    turned = turnings(x, y, own)
-    if not np.isfinite(turned).all() or abs(abs(turned) - 1.0).max() > 1e-4:
-        return None
+    """Return the real ones of solutions (n, 4), x and y, made exact by Newton's method, with which the coupler only turns."""
 
     def step(state: FloatArray) -> FloatArray:
-        values, slopes = residuals(state, own)
-        return np.asarray(np.linalg.solve(slopes, -values))
+        x, y = complex(*state[:2]), complex(*state[2:])
+        values, slopes, _ = equations_at(np.array([[1.0, x, x.conjugate(), 1.0, y, y.conjugate()]]), own[None], own.conj()[None])
+        return np.asarray(np.linalg.solve(slopes[0][:, [1, 2, 4, 5]], -values[0])[[0, 2]].view(float))
 
-    state = refined(np.array([x.real, x.imag, y.real, y.imag, *np.angle(turned)]), step)
-    if state is None:
-        return None
-    values, _ = residuals(state, own)
-    scale = max(abs(own).max(), abs(state[:4]).max(), 1.0) ** 2
-    return (complex(*state[:2]), complex(*state[2:4])) if abs(values).max() < POLISHED * scale else None
+    found = []
+    for x, X, y, Y in z:
+        if abs(X - np.conj(x)) + abs(Y - np.conj(y)) <= REAL * max(abs(x), abs(y), 1.0):
+            state = refined(np.array([x.real, x.imag, y.real, y.imag]), step)
+            exact = None if state is None else (complex(*state[:2]), complex(*state[2:]))
+            if exact and abs(abs(turnings(*exact, own)) - 1.0).max() < TURNED:
+                found.append(exact)
+    return found
 
 
 def turnings(x: complex, y: complex, own: ComplexArray) -> ComplexArray:
@@ -338,16 +333,3 @@ def turnings(x: complex, y: complex, own: ComplexArray) -> ComplexArray:
     with np.errstate(all="ignore"):
         D = one[1:].conj() * x * other[1:] * np.conj(y) - one[1:] * np.conj(x) * other[1:].conj() * y
         return np.asarray((e * other[1:] * np.conj(y) - f * one[1:] * np.conj(x)) / D)
-
-
-def residuals(state: FloatArray, own: ComplexArray) -> tuple[FloatArray, FloatArray]:
-    """Return by how much both pins change their squared distances at four points (8,), half of it, and the derivatives (8, 8)."""
-    x, y, turned = complex(*state[:2]), complex(*state[2:4]), np.exp(1j * state[4:])
-    values, slopes = np.zeros(8), np.zeros((8, 8))
-    for k, (each, z) in enumerate(((own, x), (own - 1.0, y))):
-        there = each[1:] + turned * z
-        values[4 * k : 4 * k + 4] = 0.5 * (abs(there) ** 2 - abs(each[0] + z) ** 2)
-        by_z = there.conj() * turned - np.conj(each[0] + z)
-        slopes[4 * k : 4 * k + 4, 2 * k], slopes[4 * k : 4 * k + 4, 2 * k + 1] = by_z.real, -by_z.imag
-        slopes[4 * k : 4 * k + 4, 4:] = np.diag((there.conj() * 1j * turned * z).real)
-    return values, slopes

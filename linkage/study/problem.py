@@ -121,10 +121,10 @@ class PoseSet:
         self.quantities.setdefault(key, quantity)
         return [*self.quantities].index(key)
 
-    @cached_property
+    @property
     def parts(self) -> dict[str, FloatArray]:
         """The part of each stroke's range at every pose, in the shape of the axes; those of no axis are single poses."""
-        return dict(zip(self.axes, np.meshgrid(*self.axes.values(), indexing="ij"), strict=True)) if self.axes else {}
+        return dict(zip(self.axes, np.meshgrid(*self.axes.values(), indexing="ij"), strict=True))
 
     @property
     def outer(self) -> list[str]:
@@ -140,11 +140,6 @@ class PoseSet:
                 places, weights = gauss(np.linspace(0.0, 1.0, PANELS + 1))
             axes = dict.fromkeys(self.outer, places)
         return replace(self, axes=axes, weights=weights)
-
-    def set_axis(self, name: str, places: FloatArray) -> None:
-        """Look at other parts of a stroke's range."""
-        self.axes[name] = places
-        self.__dict__.pop("parts", None)
 
 
 @immutable
@@ -419,13 +414,10 @@ class Problem:
         with self.count.without_limit():
             each_of = [{name: float(np.ravel(value)[k]) if np.ndim(value) else value for name, value in designs.items()} for k in range(m)]
             parts = [self.evaluated(design) for design in each_of]
-        names = "margins", "is_assembled", "reached"
-        margins, whole, reached = (np.concatenate([getattr(each, name) for each in parts]) for name in names)
-        rows = {}
-        for leaf in self.leaves:
-            values, lost = (np.concatenate([getattr(each.rows[leaf], name) for each in parts]) for name in ("values", "lost"))
-            rows[leaf] = Rows(values, np.zeros((0, values.shape[1])), lost)
-        return Evaluated(rows, margins, np.zeros((0, 0)), whole, reached)
+        whole, reached = (np.concatenate([getattr(each, name) for each in parts]) for name in ("is_assembled", "reached"))
+        of_leaves = {leaf: zip(*(vars(each.rows[leaf]).values() for each in parts), strict=True) for leaf in self.leaves}
+        rows = {leaf: Rows(*map(np.concatenate, each)) for leaf, each in of_leaves.items()}
+        return Evaluated(rows, np.zeros((m, 0)), np.zeros((0, 0)), whole, reached)
 
     @cached_property
     def _can_be_asked(self) -> bool:
@@ -734,8 +726,7 @@ class Problem:
         places, weights = gauss(self.panels(leaf, design).edges)
         if len(places) <= len(poses.axes[name]):
             return False
-        poses.set_axis(name, places)
-        poses.weights = weights
+        poses.axes[name], poses.weights = places, weights
         return True
 
     def refined(self, leaf: Leaf, parts: Mapping[str, float]) -> bool:
@@ -745,7 +736,7 @@ class Problem:
         for name, part in parts.items():
             axis = poses.axes[name]
             if np.abs(axis - part).min() > CLOSEST:
-                poses.set_axis(name, np.sort(np.append(axis, part)))
+                poses.axes[name] = np.sort(np.append(axis, part))
                 new = True
         return new
 

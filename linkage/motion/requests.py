@@ -322,7 +322,7 @@ def dimensions_of(plan: Plan, names: object) -> list[tuple[str, int]]:
     """Return design variables by any of their spellings, with signs; DefinitionError for anything but one of them."""
     if isinstance(names, str):
         raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
-    if not isinstance(names, Iterable) or isinstance(names, np.ndarray):
+    if not isinstance(names, Iterable) or isinstance(names, np.ndarray) or not (names := list(names)):
         raise DefinitionError(f"{plan.title}: wrt={cited(names)}: a list of dimensions is expected.")
     names = [checked_name("Dimension", name, (*plan.table.spellings, *plan.table.following, *plan.points), plan.title) for name in names]
     for name in names:

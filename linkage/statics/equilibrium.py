@@ -18,7 +18,7 @@ from ..program import FloatArray
 from ..quantities import Distance, Quantity, name_of
 from .applied import member_title
 from .friction import JointFriction
-from .holding import areas, is_among, same, share_of, solution_of_few, tie_pivots
+from .holding import PressureLine, areas, is_among, same, share_of, solution_of_few, tie_pivots
 from .joints import FRAME, Contact, Structure, Strut, UnitWrench, Wrench, follows_points, force_direction, wrenches
 from .poses import FlatPoses, cross, over_zero
 
@@ -265,6 +265,11 @@ class System:
         """Return the thrust (n,) that laws give a member, beside that of a line whose pressure answers."""
         laws = [self.poses.flattened(each.thrust) for each in self.structure.thrusts if same(member, each.member)]
         return reduce(np.add, laws, self.poses.zeros())
+
+    def push(self, line: PressureLine, u: FloatArray, q: FloatArray) -> FloatArray:
+        """Return what the first cylinder of a line pushes beside what laws give it (n,) [N], of joint forces and frictions."""
+        first = next(each for each in self.structure.struts if each.line is line)
+        return self.thrust(first).at(u[:, : self.width], q) - self.given_thrust(line.cylinders[0])
 
     def tied(self) -> Iterator[tuple[LinearForm, FloatArray]]:
         """Yield the equations of members on ties, whose thrusts follow fewer forces."""

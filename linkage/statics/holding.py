@@ -431,8 +431,12 @@ def traced_levers(poses: FlatPoses, holders: Holders) -> tuple[Levers, ...]:
     cond = nearness_of(holders, found) if holders.lines else np.zeros(())
     if not is_traced(cond):
         return found
-    kept = [elementwise(lambda lever: np.where(cond <= REFUSE, lever, np.nan), (each.matrix,)) for each in found]
-    return tuple(replace(each, matrix=matrix) for each, matrix in zip(found, kept, strict=True))
+    return tuple(replace(each, matrix=where_held(cond, each.matrix)) for each in found)
+
+
+def where_held(cond: FloatArray, values: FloatArray) -> FloatArray:
+    """Return traced values where the levers are no nearer to a singular pose than forces are told, else NaN."""
+    return elementwise(lambda each: np.where(cond <= REFUSE, each, np.nan), (values,))
 
 
 def levers_of(poses: FlatPoses, holders: Holders, senses: Sequence[int]) -> Levers:

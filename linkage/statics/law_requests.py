@@ -28,7 +28,7 @@ from ..verdict import Remark
 from .applied import AppliedElement, AppliedLoads, Parts, element_parts, known_rates, motion_in_case, plan_in_case, refuse_direction
 from .equilibrium import System
 from .friction import JointFriction
-from .holding import Levers
+from .holding import Levers, levers_of, nearness_of, settled, where_held
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses
 from .solution import Equilibrium, held_in_case, refuse_loose
@@ -272,7 +272,8 @@ def eliminated_forces(
     # About half the extent [m], as a power of two, which divides without rounding: two designs have the same forces to the last bit.
     scale = float(2.0 ** np.round(np.log2(size / 2.0))) if size > 0.0 else 1.0
     system = System(structure, FlatPoses(motion, ""), applied.loads, frictions, scale)
-    found = elimination(system, motion, sizes)
+    ways = [elimination(system, motion, sizes, way) for way in structure.holders.senses]
+    found = ways[0]
     with np.errstate(invalid="ignore"):
         pivots = None if found is None else np.min(np.abs(over_sampled(found.pivots, sampled)), axis=0, initial=np.inf)
         is_regular = pivots is not None and bool(np.any(pivots > RANK))  # there is a solution at one of the poses
@@ -284,13 +285,22 @@ def eliminated_forces(
             Equilibrium(System(Structure(plan, applied.elements, thrusts), poses, ())).check()
     if found is None:
         raise DefinitionError(f"{plan.title}: the joints have more forces than equations, or less.")
-    return system, motion._array([found.unknowns()])
+    forces = [motion._array([each.unknowns()]) for each in ways if each is not None]
+    holders = structure.holders
+    if not holders.changes_shares:
+        return system, forces[0]
+    cond = nearness_of(holders, [levers_of(system.poses, holders, way) for way in holders.senses])
+    pushes = [np.array([system.push(line, each, motion._array([sizes])) for line in holders.lines], object) for each in forces]
+    return system, settled(holders, pushes, [where_held(cond, each[0]) for each in forces])[None]
 
 
-def elimination(system: System, motion: TracedMotion, sizes: Sequence[Node]) -> SparseSystem | None:
-    """Return the equations of a traced system under its loads and frictions, eliminated; None where they are more or less than unknowns."""
+def elimination(system: System, motion: TracedMotion, sizes: Sequence[Node], senses: Sequence[int]) -> SparseSystem | None:
+    """Return the equations of a traced system under its loads and frictions, eliminated; None where they are more or less than unknowns.
+
+    `senses` are 1 where the first cylinders of lines push, -1 where they pull.
+    """
     zero = motion._reading.graph.constant(0.0)
-    bound = system.known()
+    bound = system.known(senses)
     rows: list[dict[int, Node]] = [{} for _ in range(system.starts[-1] + len(bound))]
     if len(rows) != system.width:
         return None

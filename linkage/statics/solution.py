@@ -101,8 +101,7 @@ def solved(system: System, split: str, senses: tuple[int, ...], start: int = 0) 
     if place is None:
         return Equilibrium(system, split, senses).solution()
     found = solved(system, split, senses, place + 1)
-    first = next(each for each in system.structure.struts if each.line is lines[place])
-    pulls = found.value(system.thrust(first)) < system.given_thrust(lines[place].cylinders[0])
+    pulls = system.push(lines[place], found.u, found.q) < 0.0
     if not pulls.any():
         return found
     other = solved(system, split, (*senses[:place], -1, *senses[place + 1 :]), place + 1)

@@ -54,6 +54,7 @@ from linkage import (
     drive_force,
     driving_force,
     mm,
+    pin_force,
     pin_forces,
     ref,
 )
@@ -433,10 +434,12 @@ def test_rams_of_one_line_have_its_pressure_on_the_side_that_it_fills(seed):
     motion = machine.at(unreachable="nan", **poses)
     forces, members = pin_forces(motion), machine.plan.members
     every = [members[ram] for _, each in arms for ram in each]
-    evaluated = machine.evaluate([thrust(ram) for ram in every], unreachable="nan", **poses)
-    for ram, value in zip(every, evaluated, strict=True):
+    pins = [pin_force(f"A{ram.name}") for ram in every]
+    evaluated = machine.evaluate([*map(thrust, every), *pins], unreachable="nan", **poses)
+    for ram, value, pin in zip(every, evaluated, evaluated[len(every) :], strict=False):
         assert_allclose(forces.thrusts[ram.name], ram.thrust(motion), rtol=1e-9, atol=1e-6)
         assert_allclose(value, ram.thrust(motion), rtol=1e-9, atol=1e-6)
+        assert_allclose(pin, np.abs(ram.thrust(motion)), rtol=1e-9, atol=1e-6)
     for (kind, rams), stroke in zip(arms, ("S", "R"), strict=True):
         thrusts = [members[ram].thrust(motion) for ram in rams]
         needed = sum(ram.thrust(motion) * ram.growth(motion, {stroke: 1.0}) for ram in every)

@@ -632,6 +632,7 @@ USES = [
             "circuit.hydraulic_efficiency, circuit.back_pressure, AB, BA, A, O, B, G.",
         ),
     ),
+    ('motion.gradient("G", @)', "[]", ("Lift: wrt=[]: a list of dimensions is expected.",)),
     ('motion.gradient("G", @)', '["A"]', ('Lift: wrt="A": a point has two coordinates; say "A.x" or "A.y".',)),
     ('motion.gradient(@, ["OB"])', '"Q"; 3; None; []', ("is unknown in Lift. Known: S, L0, A, O, B, G, tilt, arm.",)),
     ('motion.gradient(@, ["OB"])', "Stroke(0, 1)", ("Stroke(0, 1) stands here without a name", "= Stroke(0, 1), and write L0 here.")),

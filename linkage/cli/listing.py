@@ -12,7 +12,6 @@ from functools import lru_cache
 from importlib.machinery import PathFinder
 from importlib.metadata import EntryPoint
 from importlib.util import find_spec, resolve_name
-from inspect import cleandoc
 from pathlib import Path
 from shutil import get_terminal_size
 from textwrap import wrap
@@ -88,10 +87,8 @@ def wrapped(text: str, start: str, hanging: str = "") -> list[str]:
 def first_line(entry: EntryPoint) -> str:
     """Return the first line of a machine's docstring, out of its source; a machine without source is loaded."""
     node = class_node(entry.module, entry.attr)
-    text = None if node is None else cleandoc(ast.get_docstring(node) or "")
-    if text is None:
-        text = guarded(entry.load, f"The machine {entry.name} ({entry.value})").__doc__ or ""
-    return text.strip().partition("\n")[0]
+    text = ast.get_docstring(node) if node is not None else guarded(entry.load, f"The machine {entry.name} ({entry.value})").__doc__
+    return (text or "").strip().partition("\n")[0]
 
 
 def class_node(module: str, name: str) -> ast.ClassDef | None:
@@ -99,14 +96,8 @@ def class_node(module: str, name: str) -> ast.ClassDef | None:
 
     A module that hands the class on (`from .machine import Hitch as Hitch`) is followed.
     """
-    path = source_file(module)
-    if path is None:
-        return None
-    alone = class_alone(path, name)
-    if alone is not None:
-        return alone
-    tree = syntax(module)
-    package = module if path.name == "__init__.py" else module.rpartition(".")[0]
+    tree, path = syntax(module), source_file(module)
+    package = module if path is not None and path.name == "__init__.py" else module.rpartition(".")[0]
     for line in reversed(tree.body) if tree is not None else ():
         if isinstance(line, ast.ClassDef) and line.name == name:
             return line
@@ -115,23 +106,6 @@ def class_node(module: str, name: str) -> ast.ClassDef | None:
                 if (each.asname or each.name) == name:
                     return class_node(resolve_name("." * line.level + (line.module or ""), package), each.name)
     return None
-
-
-def class_alone(path: Path, name: str) -> ast.ClassDef | None:
-    """Return a class by the lines that begin it, up to its first function: no more is parsed; None where that is no class."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, ValueError):
-        return None
-    begun = [each.start() for each in re.finditer(rf"^class {name}\b", text, re.MULTILINE)]
-    if not begun:
-        return None
-    end = re.compile(r"\n(?:\S|    (?:@|def |async def ))").search(text, begun[-1])
-    try:
-        tree = ast.parse(text[begun[-1] : end.start() if end else len(text)])
-    except (SyntaxError, ValueError):
-        return None
-    return tree.body[0] if len(tree.body) == 1 and isinstance(tree.body[0], ast.ClassDef) else None
 
 
 @lru_cache(maxsize=64)

@@ -50,3 +50,12 @@ def dot(ax: Axes, along: ArrayLike, values: ArrayLike, colour: str, size: float 
 def beside(ax: Axes, text: str, at: tuple[float, float], off: tuple[float, float], **look: Any) -> None:
     """Write a text so many points off a place."""
     ax.annotate(text, at, xytext=off, textcoords="offset points", **{"fontsize": style.SMALL, "color": style.MUTED, **look})
+
+
+def marked_place(ax: Axes, along: float, value: float, text: str, colour: str = style.INK) -> None:
+    """Mark a place of a curve by a dot, with words under it that stay within the axes."""
+    low, high = ax.get_xlim()
+    share = (along - low) / (high - low)
+    side, aside = ("left", 9) if share < 0.2 else ("right", -9) if share > 0.8 else ("center", 0)
+    dot(ax, along, value, colour)
+    beside(ax, text, (along, value), (aside, -10), ha=side, va="top", color=colour, zorder=8.0)

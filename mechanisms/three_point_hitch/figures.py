@@ -13,12 +13,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from linkage import Motion, draw
+from linkage import draw
 from linkage.pictures import style
 from linkage.reports import closely
 from linkage.units import deg, g0, kN, mm
 
-from ..sheets import CURVES, WORDS, axis_words, beside, curve, dot, headed, titled
+from ..sheets import CURVES, WORDS, axis_words, beside, curve, headed, marked_place, titled
 from .capacity import admissible, at_hitch_points, behind, capacity, capacity_zone, tilt_zone, weakest
 from .machine import ThreePointHitch
 from .report import largest_mass, tipping_mass
@@ -73,7 +73,10 @@ def curves(hitch: ThreePointHitch) -> Figure:
     curve(ax, S, largest_mass(motion) * g0 / kN, style.ACCENT, f"at G, with {share:.0f} % of its weight left on the front axle", "--")
     weight = float(hitch["load.mass"])
     curve(ax, S, np.full(S.shape, weight * g0 / kN), style.INK, f"the implement, {weight:.0f} kg", "-", 1.2)
-    _mark(ax, motion)
+    found = weakest(motion)
+    if found is not None:
+        text = f"weakest: {found.capacity / kN:.1f} kN at S = {found.stroke / mm:.0f} mm,\nG rises {found.ratio:.2f} mm for 1 mm of stroke"
+        marked_place(ax, found.stroke / mm, found.capacity / kN, text, style.CURVE)
     _named(ax, "", "stroke S, mm", "load that can be lifted, kN")
     ax.set_ylim(0.0, None)
     height = motion.y("F") / mm
@@ -86,19 +89,6 @@ def curves(hitch: ThreePointHitch) -> Figure:
         upper.spines["top"].set_color(style.RULE)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, **CURVES)
     return sheet
-
-
-def _mark(ax: Axes, motion: Motion) -> None:
-    """Mark the weakest point of the capacity curve."""
-    found = weakest(motion)
-    if found is None:
-        return
-    at = found.stroke / mm, found.capacity / kN
-    dot(ax, *at, style.CURVE, 8.0)
-    right = found.stroke / mm > np.mean(ax.get_xlim())
-    text = f"weakest: {found.capacity / kN:.1f} kN at S = {found.stroke / mm:.0f} mm,\nG rises {found.ratio:.2f} mm for 1 mm of stroke"
-    side, aside = ("right", -8) if right else ("left", 8)
-    beside(ax, text, at, (aside, -10), ha=side, va="top", color=style.CURVE, zorder=8.0)
 
 
 def lift_range(hitch: ThreePointHitch) -> Figure:

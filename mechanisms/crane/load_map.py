@@ -15,7 +15,7 @@ from hydraulics.inputs import one_number, positive
 from linkage import Force, ForceElement, LoadCase, PinForces, WorkingField, distance, drive_force, mm, pin_forces, ratio, working_field
 from linkage.errors import DefinitionError, ensure, known_name
 from linkage.loads.point import on_slope
-from linkage.motion import Motion, last_holding
+from linkage.motion import Motion, below_zero
 from linkage.program import FloatArray
 from linkage.study.reach import Reach
 from linkage.study.space import check_one_design
@@ -124,24 +124,20 @@ def within(crane: Crane, stroke: str, start: float, end: float) -> tuple[float, 
         return start, end
     least, most = float(closed) - PLAY, float(closed) + PLAY + (np.inf if way is None else float(way))
 
-    def slack(at: FloatArray) -> FloatArray:
-        """Return by how much its length lies within its own [m], of strokes."""
-        (length,) = crane.evaluate([distance(*cylinder.ends)], **along_stroke(crane, stroke, at))
-        return np.minimum(length - least, most - length).reshape(at.shape)
-
-    grid = np.linspace(start, end, 65)
-    inside = slack(grid) >= 0.0
-    if not inside.any():
-        length = crane.at(**along_stroke(crane, stroke, grid)).distance(*cylinder.ends)
-        goes = f"{np.min(length) / mm:.1f} to {np.max(length) / mm:.1f} mm"
+    poses = crane.at(**along_stroke(crane, stroke, np.linspace(start, end, 65)))
+    lengths = poses.distance(*cylinder.ends)
+    if not np.any((lengths >= least) & (lengths <= most)):
+        goes = f"{np.min(lengths) / mm:.1f} to {np.max(lengths) / mm:.1f} mm"
         raise DefinitionError(f"{cylinder.name} is never as long as {stroke} needs, {goes}; take another closed length or other pins.")
-    if inside.all():
-        return start, end
-    first, last = int(np.argmax(inside)), inside.size - 1 - int(np.argmax(inside[::-1]))
-    ends = [(grid[max(first - 1, 0)], grid[first]), (grid[min(last + 1, grid.size - 1)], grid[last])]
-    outside, good = np.array(ends).T
-    good, _ = last_holding(lambda at: slack(at) >= 0.0, good, outside)
-    return float(good[0]) if first else start, float(good[1]) if last < grid.size - 1 else end
+
+    def slack(motion: Motion) -> FloatArray:
+        """Return by how much the length lies within the cylinder's own [m]."""
+        length = motion.distance(*cylinder.ends)
+        return np.minimum(length - least, most - length)
+
+    outside = [(each.start[stroke], each.end[stroke]) for each in below_zero(poses, slack)]
+    low = outside[0][1] if outside and outside[0][0] <= start else start
+    return low, outside[-1][0] if outside and outside[-1][1] >= end else end
 
 
 # -- the load map -----------------------------------------------------------------------------------------------

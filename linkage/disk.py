@@ -63,6 +63,13 @@ def in_words(path: Place) -> Iterator[None]:
         raise FileError(f"{spoken(path)}: {reason(error)}.") from error
 
 
+def new_folder(path: Place) -> Path:
+    """Make a folder with those around it, where it is not there yet, and return it; FileError, in words, where that cannot be."""
+    with in_words(path):
+        Path(path).mkdir(parents=True, exist_ok=True)
+    return Path(path)
+
+
 def check_name(path: Place) -> None:
     """Raise FileError for anything but a name, and for a name that no file can have."""
     if not isinstance(path, (str, os.PathLike)):

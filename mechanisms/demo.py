@@ -12,7 +12,7 @@ from pathlib import Path
 
 from linkage import FileError
 from linkage.cli import main as run
-from linkage.disk import in_words
+from linkage.disk import new_folder
 
 COMMANDS = (
     ("table", "mower_lift", "--at", "S=0.55,0.6,0.65,0.7,0.75,0.8", "--check"),
@@ -29,8 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=Path("out"), metavar="FOLDER", help="where the pictures go (default: out)")
     folder: Path = parser.parse_args(argv).out
     try:
-        with in_words(folder):
-            folder.mkdir(parents=True, exist_ok=True)
+        new_folder(folder)
     except FileError as error:
         print(f"{error} Choose another folder with --out.", file=sys.stderr)
         return 2

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..disk import check_place, in_words
+from ..disk import check_place, new_folder
 from ..errors import DefinitionError, StudyError, ensure, unknown
 from ..files import load, save
 from ..files.study_tasks import TaskResult, read_study
@@ -172,10 +172,7 @@ def outputs_asked(options: Namespace) -> dict[str, Path]:
         found["page"] = Path(options.page)
         ensure(found["page"].suffix.lower() == ".html", f"--page {options.page}: the file's name ends in .html.")
     if options.pictures is not None:
-        folder = Path(options.pictures)
-        with in_words(folder):
-            folder.mkdir(parents=True, exist_ok=True)
-        found["drawing"] = folder / f"{Path(options.file).stem}.png"
+        found["drawing"] = new_folder(options.pictures) / f"{Path(options.file).stem}.png"
     for path in found.values():
         check_place(path)
     return found

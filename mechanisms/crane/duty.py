@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hydraulics import CylinderSize
-from hydraulics.inputs import efficient, in_pascals, not_negative, one_number, positive
+from hydraulics.inputs import efficient, in_pascals, not_negative
 from linkage import DefinitionError, Mechanism, MPa, deg, drive_force, kN, mm
 from linkage.errors import ensure
 from linkage.numeric.line import Index, highest
@@ -379,11 +379,9 @@ class DriveCylinders:
         for bore, rod in self.sizes:
             CylinderSize(bore, rod)
         object.__setattr__(self, "sizes", tuple((float(bore), float(rod)) for bore, rod in self.sizes))
-        in_pascals(positive(one_number(self.pressure, "pressure"), "pressure"), "pressure")
-        efficient(one_number(self.efficiency, "efficiency"), "efficiency")
-        not_negative(one_number(self.f_0, "f_0"), "f_0")
-        not_negative(one_number(self.f_1, "f_1"), "f_1")
-        positive(one_number(self.longest, "longest"), "longest")
+        hold_numbers(self, ("pressure", "longest"), ("f_0", "f_1"))
+        in_pascals(self.pressure, "pressure")
+        efficient(self.efficiency, "efficiency")
 
     def dimensions(self, bore: float, rod: float) -> Mapping[str, float]:
         """Return the dimensions of a drive's class for one of them.

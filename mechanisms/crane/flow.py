@@ -6,7 +6,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -76,7 +76,7 @@ def design_skeleton(
     found = optimise(
         machine,
         minimise=least(ref("W_m")),
-        vary={name: ranges[name] for name in ranges},
+        vary={name: ends for name, ends in ranges.items()},
         subject_to=[
             *(least(ref(name)) == 0.0 for name in made.errors),
             *(least(ref(name)) >= 0.0 for name in (*rules, "boom_turns", "b_c")),
@@ -164,11 +164,11 @@ def design_crane(
     return CraneDesign(found, lifting, folding, with_drives(bare, chosen_boom, chosen_arm))
 
 
-CRANES: Sequence[tuple[type[DrivenArm], type[Crane], int]] = (
-    (BellCrankArmDrive, BellCrankCrane, 8), (DirectArmDriveAbove, DirectCraneAbove, 4), (DirectArmDrive, DirectCrane, 4),
-    (ArmDrive, Crane, 6),
-)  # fmt: skip
-"""Of each arm drive the crane that has it, and how many lengths r_1, r_2 ... it has; subclasses first."""
+CRANES: Mapping[type[DrivenArm], type[Crane]] = MappingProxyType(
+    {BellCrankArmDrive: BellCrankCrane, DirectArmDriveAbove: DirectCraneAbove, DirectArmDrive: DirectCrane, ArmDrive: Crane}
+)
+"""Of each arm drive the crane that has it; subclasses first."""
+CYLINDERS: Mapping[str, str] = MappingProxyType({"boom": "lift", "arm": "fold"})
 
 
 def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: DrivenArm) -> Crane:
@@ -195,22 +195,23 @@ def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: DrivenArm) -> Cra
     DefinitionError
         The arm drive is of another than the four schemes.
     """
-    made, count = next(((crane, count) for drive, crane, count in CRANES if isinstance(arm, drive)), (None, 0))
+    made = next((crane for drive, crane in CRANES.items() if isinstance(arm, drive)), None)
     if made is None:
         what = f"{arm.plan.title} is no arm drive of the four schemes"
         raise DefinitionError(f"{what}; the whole crane takes an ArmDrive or a DirectArmDrive.")
     numbers: dict[str, Any] = {name: skeleton[name] for name in CraneSkeleton.plan.defaults if name in made.plan.defaults}
-    for drive, of in ((boom, names_of("boom", "lift", 4)), (arm, names_of("arm", "fold", count))):
-        numbers |= {name: number_of(drive, own) for name, own in of.items()}
+    drives: dict[str, BoomDrive | DrivenArm] = {"boom": boom, "arm": arm}
+    numbers |= {name: number_of(drive, own) for side, drive in drives.items() for name, own in names_of(made, side).items()}
     if isinstance(arm, ArmDrive):
         numbers |= {"lug": 180 * deg + arm["alpha_20"] - arm["psi_0"], "bend": arm["delta"]}
     closed = float(skeleton["l_p"]) - Crane.plan.defaults["root_pin"]
     return made(**numbers, **{"extend.stroke": float(skeleton["l_t"]), "extend.closed": closed})
 
 
-def names_of(side: str, cylinder: str, bars: int) -> dict[str, str]:
+def names_of(crane: Crane | type[Crane], side: str) -> dict[str, str]:
     """Return the names of a drive's lengths and cylinder in the whole crane, each with its name in the drive on its own."""
-    own = {f"{side}_r{k}": f"r_{k}" for k in range(1, bars + 1)}
+    start, cylinder = f"{side}_r", CYLINDERS[side]
+    own = {name: f"r_{name.removeprefix(start)}" for name in crane.plan.defaults if name.startswith(start)}
     own |= {f"{cylinder}.{name}": letter for name, letter in (("bore", "D"), ("rod", "d"), ("stroke", "S"), ("closed", "l"))}
     return own | {f"{cylinder}_line.pressure": "p", f"{cylinder}_line.mechanical_efficiency": "n"}
 
@@ -233,7 +234,7 @@ def boom_drive_of(crane: Crane) -> BoomDrive:
     BoomDrive
         The drive.
     """
-    return BoomDrive(**duty_of(crane).asked_of(BoomDrive), **own_numbers(crane, names_of("boom", "lift", 4)))
+    return BoomDrive(**duty_of(crane).asked_of(BoomDrive), **own_numbers(crane, "boom"))
 
 
 def arm_drive_of(crane: Crane) -> DrivenArm:
@@ -250,14 +251,14 @@ def arm_drive_of(crane: Crane) -> DrivenArm:
         The drive.
     """
     duty = duty_of(crane)
-    drive, count = next((drive, count) for drive, made, count in CRANES if isinstance(crane, made))
+    drive = next(drive for drive, made in CRANES.items() if isinstance(crane, made))
     asked = duty.asked_of(drive)
     if issubclass(drive, ArmDrive):
         asked |= {"alpha_20": float(crane["lug"]) - 180 * deg + duty.psi_0, "delta": float(crane["bend"])}
-    return drive(**asked, **own_numbers(crane, names_of("arm", "fold", count)))
+    return drive(**asked, **own_numbers(crane, "arm"))
 
 
-def own_numbers(crane: Crane, names: Mapping[str, str]) -> dict[str, float]:
+def own_numbers(crane: Crane, side: str) -> dict[str, float]:
     """Return a drive's numbers as it calls them on its own; its closed length l as f_0 of (2.36), with f_1 = 0."""
-    found = {own: float(crane[name]) for name, own in names.items()}
+    found = {own: float(crane[name]) for name, own in names_of(crane, side).items()}
     return found | {"f_0": found.pop("l") - found["S"], "f_1": 0.0}

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, is_dataclass, replace
 from itertools import permutations
 from math import atan2, degrees, dist, floor, isfinite, log10, pi, radians, remainder
 from typing import Any
@@ -146,25 +146,15 @@ class MachineSketch:
         ensure(self.points, f"{self.name}: no point is drawn; a sketch begins with points and links.")
         for name, place in self.points.items():
             ensure(all(map(is_number, place)), f"{self.name}: {name} stands at {place}; give finite coordinates.")
-        numbered: dict[str, tuple[object, ...]] = {
-            f"the slide {name}": (slide.along,) for name, slide in self.slides.items() if not is_listed(slide.along)
-        }
-        for name, each in self.drives.items():
-            sizes = [size for size in (each.bore, each.rod) if size is not None]
-            numbered[f"the drive {name}"] = (each.start, each.end, each.drawn, *sizes)
-        numbered |= {f"the length {label}": (value,) for label, value in self.lengths.items()}
-        numbered |= {f"the angle {label}": (value,) for label, value in self.angles.items()}
-        numbered |= {f"the weight {name}": (weight.mass,) for name, weight in self.weights.items()}
-        numbered |= {f"the force {name}": force.vector for name, force in self.forces.items()}
-        for what, numbers in numbered.items():
+        told: dict[str, object] = {"what is fixed": self.fixed}
+        for part in ("links", "slides", "drives", "lengths", "angles", "weights", "forces"):
+            told |= {f"the {part[:-1]} {name}": each for name, each in getattr(self, part).items()}
+        for what, each in told.items():
+            values = [*values_told(each)]
+            names = [value for value in values if isinstance(value, str)]
+            numbers = [value for value in values if not isinstance(value, str)]
             ensure(all(map(is_number, numbers)), f"{self.name}: {what} has {', '.join(map(cited, numbers))}; give finite numbers.")
-        named = {"what is fixed": self.fixed} | {f"the link {name}": points for name, points in self.links.items()}
-        for name, slide in self.slides.items():
-            named[f"the slide {name}"] = (slide.point, *(slide.along if isinstance(slide.along, tuple) else ()))
-        named |= {f"the drive {name}": drive.ends for name, drive in self.drives.items()}
-        named |= {f"the load {name}": (load.point,) for each in (self.weights, self.forces) for name, load in each.items()}
-        for what, names in named.items():
-            missing = [each for each in names if each not in self.points]
+            missing = [name for name in names if name not in self.points]
             ensure(not missing, f"{self.name}: {what} names {', '.join(missing)}, which is not among the points.")
             ensure(len({*names}) == len(names), f"{self.name}: {what} names a point twice.")
 
@@ -344,6 +334,13 @@ class MachineSketch:
         most = max(moved, key=lambda each: moved[each])
         note = f"Lengths are rounded to {show(step, 'mm')}; {most} moves most, by {show(moved[most], 'mm', 3)}."
         return replace(put, points=settled, notes=(*self.notes, note))
+
+
+def values_told(entry: object) -> Iterator[object]:
+    """Yield the points' names and the numbers of an entry of a sketch, one by one; a size that is not given is none of them."""
+    own = {name: each for name, each in vars(entry).items() if name != "kind" and each is not None} if is_dataclass(entry) else {"": entry}
+    for each in own.values():
+        yield from each if is_listed(each) else (each,)
 
 
 def longer_side(places: Iterable[Place]) -> float:

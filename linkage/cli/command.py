@@ -201,11 +201,16 @@ def say_remark(text: str) -> None:
 Progress: TypeAlias = Callable[[int, int], None]
 
 
+def say_progress(done: int, total: int) -> None:
+    """Say on stderr how far the work is."""
+    print(f"{done} of {total}", file=sys.stderr, flush=True)
+
+
 @contextmanager
-def progress_bar(title: str) -> Iterator[Progress | None]:
-    """Yield a progress function (done, total), which draws a bar on stderr; None where stderr is no terminal."""
+def progress_bar(title: str, *, in_lines: bool = False) -> Iterator[Progress | None]:
+    """Yield a progress function (done, total), which draws a bar on stderr; where that is no terminal one that says lines, or None."""
     if not sys.stderr.isatty():
-        yield None
+        yield say_progress if in_lines else None
         return
     from rich.console import Console
     from rich.progress import Progress as Bar

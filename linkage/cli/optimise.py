@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -22,7 +21,6 @@ from ..motion import Column
 from ..study import Front, Tornado, Zone
 from ..study.optimum import tried_names
 from ..study.space import Space, unit_of
-from ..study.survey import Progress as ProgressLike
 from ..units import deg, mm
 from .command import LINK, Command, option, progress_bar, repeatable, whole_number
 from .listing import OWN, registered
@@ -61,25 +59,13 @@ def machine_of_study(trust: list[str], text: str, base: Path) -> type[Mechanism]
     return find(f"{base / text}" if is_file else text)
 
 
-@contextmanager
-def study_progress(title: str, *, asked: bool) -> Iterator[ProgressLike | bool]:
-    """Yield the function that reports how far a study is: a bar on a terminal, where it is asked for lines elsewhere."""
-    with progress_bar(title) as bar:
-        yield bar or (say_progress if asked else False)
-
-
-def say_progress(done: int, total: int) -> None:
-    """Say on stderr how far a study is."""
-    print(f"{done} of {total}", file=sys.stderr, flush=True)
-
-
 @Command("optimise", "the best dimensions: the search that a file asks for", *STUDY)
 def optimise_command(options: Namespace) -> int:
     """Search the best design."""
     search = read_search(options.file, partial(machine_of_study, options.trust), partial(parsed_settings, texts=options.settings))
     try:
-        with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
-            found = search.run(options.folder, progress)
+        with progress_bar(f"searching {Path(options.file).stem}", in_lines=options.progress) as progress:
+            found = search.run(options.folder, progress or False)
     except StudyError as error:
         print(f"hydrolinkage: {' '.join(str(error).split())}", file=sys.stderr)
         return NOT_FEASIBLE
@@ -142,8 +128,8 @@ def synthesise_command(options: Namespace) -> int:
     outputs = {name: [*paths] for name, paths in asked.outputs.items()}
     for name, path in outputs_asked(options).items():
         outputs.setdefault(name, []).append(path)
-    with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
-        found = asked.run(options.folder, progress)
+    with progress_bar(f"searching {Path(options.file).stem}", in_lines=options.progress) as progress:
+        found = asked.run(options.folder, progress or False)
     print(found)
     if not found.solutions:
         return NOT_FEASIBLE
@@ -188,8 +174,8 @@ def study_command(options: Namespace) -> int:
     folder = Path(options.folder) if options.folder else None
     solved = True
     for section in study.tasks:
-        with study_progress(section, asked=options.progress) as progress:
-            found = study.run(section, folder, progress)
+        with progress_bar(section, in_lines=options.progress) as progress:
+            found = study.run(section, folder, progress or False)
         print(found.text)
         for path in study.outputs.get(section, ()):
             if path.suffix.lower() in (".csv", ".jsonl"):

@@ -112,10 +112,8 @@ def si_number(given: object, kind: str) -> float:
 
 def demand_read(given: object, until: float) -> Demand:
     """Return a cylinder's demand: one speed, "max", or rows of instants, each with the speed that holds from there on."""
-    if given in ("max", "inf", np.inf):
-        return np.inf
-    if given in ("-max", "-inf", -np.inf):
-        return -np.inf
+    if str(given).removeprefix("-") in ("max", "inf"):
+        return -np.inf if str(given).startswith("-") else np.inf
     if not isinstance(given, list):
         return si_number(given, "speed")
     fits = all(isinstance(row, list) and len(row) == 2 for row in given)

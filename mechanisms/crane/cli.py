@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from linkage.cli.follow import print_chart
 from linkage.cli.machines import find
 from linkage.cli.settings import CHECK, OVER, design_from, overs_of, print_verdicts, si_value
 from linkage.cli.table import write_table
-from linkage.disk import check_place, in_words
+from linkage.disk import check_place, new_folder
 from linkage.errors import ensure
 from linkage.statics import table_text
 
@@ -78,10 +77,8 @@ def print_design(options: Namespace) -> int:
         assert isinstance(skeleton, CraneSkeleton)
         print_skeleton(skeleton)
         return print_verdicts(skeleton.verdicts(over=overs_of(skeleton, options.over)), options)
-    folder = Path(options.pictures) if options.pictures else None
+    folder = new_folder(options.pictures) if options.pictures else None
     if folder is not None:
-        with in_words(folder):
-            folder.mkdir(parents=True, exist_ok=True)
         check_place(folder / "map.png")
     machine = crane_or_drive(options)
     over = overs_of(machine, options.over)

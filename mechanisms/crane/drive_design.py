@@ -138,20 +138,17 @@ def judged(
     """
     found = []
     for bore, rod in cylinders.sizes:
-        size = JudgedSize(bore, rod, could(bore, rod), asked, None)
-        if not size.is_too_small:
-            try:
-                optimum = optimise(**task(bore, rod))
-                assert isinstance(optimum, Optimum)
-                size = replace(size, optimum=optimum)
-            except StudyError as error:
-                text = str(error)
-                if isinstance(error, InfeasibleError):
-                    text = f"no pins found keep everything, the nearest miss {'; '.join(each.sentence for each in error.relaxations)}."
-                for movement, letters in LETTERS:
-                    text = text.replace(str(movement.given), letters)
-                size = replace(size, reason=text)
-        found.append(size)
+        optimum, reason, work = None, "", could(bore, rod)
+        try:
+            optimum = None if work < asked else optimise(**task(bore, rod))
+        except StudyError as error:
+            reason = str(error)
+            if isinstance(error, InfeasibleError):
+                reason = f"no pins found keep everything, the nearest miss {'; '.join(each.sentence for each in error.relaxations)}."
+            for movement, letters in LETTERS:
+                reason = reason.replace(str(movement.given), letters)
+        assert optimum is None or isinstance(optimum, Optimum)
+        found.append(JudgedSize(bore, rod, work, asked, optimum, reason))
     return tuple(found)
 
 

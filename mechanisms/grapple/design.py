@@ -21,7 +21,7 @@ import numpy as np
 from hydraulics import CylinderSize, reserve
 from hydraulics.inputs import efficient, in_pascals, one_number, positive
 from linkage import DefinitionError, MPa, Stroke, StudyError, at, deg, least, mm, most, optimise, ratio, ref, x, y
-from linkage.errors import ensure, one_word, require, require_type
+from linkage.errors import ensure, is_listed, one_word, require, require_type
 from linkage.frozen import refuses_changes
 from linkage.motion import Request
 from linkage.program import FloatArray
@@ -130,10 +130,7 @@ class Duty:
         ensure(self.opening >= 1.0, f"Duty: {said}; 1.2 to 1.4 (2.81).")
         in_pascals(positive(self.pressure, "pressure"), "pressure")
         efficient(self.efficiency, "efficiency")
-        try:
-            rows = [numbers_of(row) for row in self.cylinders]
-        except TypeError:  # nothing that has rows
-            rows = []
+        rows = [*map(numbers_of, self.cylinders)] if is_listed(self.cylinders) else []
         expected = "rows of bore and rod [m] are expected, such as [(0.05, 0.028)]"
         require(rows and all(len(row) == 2 for row in rows), "Duty: cylinders", self.cylinders, expected)
         for bore, rod in rows:

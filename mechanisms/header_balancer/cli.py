@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from linkage import DefinitionError
 from linkage.cli.command import CSV, Command, count_option, figure_path, machine_options, option, picture_option
 from linkage.cli.settings import CHECK, OVER, overs_of, parsed_settings, print_verdicts, si_value
 from linkage.cli.table import write_table
@@ -81,9 +80,8 @@ def header_of(options: Namespace) -> HeaderBalancer:
     """Return the machine that the options mean."""
     machine = machine_like(options, HeaderBalancer, "balanced header")
     changed = parsed_settings(machine, options.settings)
-    is_shipped = type(machine) is HeaderBalancer and machine.dimensions == HeaderBalancer(**changed).dimensions
-    if options.table and not is_shipped:
-        raise DefinitionError(f"--table goes with header_balancer and its headers; {options.machine} has dimensions of its own.")
+    is_fit = not options.table or (options.machine == "header_balancer" and not options.own)
+    ensure(is_fit, f"--table goes with header_balancer and its headers; {options.machine} has dimensions of its own.")
     ensure(not (options.pressure and options.reaction), "--pressure and --reaction both choose the charge; give one of them.")
     found, given = type(machine), dict(machine.replaced(**{**HEADERS.get(options.header, {}), **changed}).dimensions)
     if options.pressure:

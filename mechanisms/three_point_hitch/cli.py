@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from linkage import DefinitionError, max_table, pin_forces
+from linkage import max_table, pin_forces
 from linkage.cli.command import Command, figure_path, machine_options, option
 from linkage.cli.settings import design_from, judged_over, motions_at, print_verdicts
 from linkage.cli.table import Table, heading_words, write_tables
+from linkage.errors import ensure
 from linkage.statics import table_text
 from linkage.units import show
 
@@ -40,10 +41,8 @@ def print_hitch(options: Namespace) -> int:
     """Print a hitch's capacity and its limits."""
     machine = machine_like(options, ThreePointHitch, "three-point hitch")
     if options.category:
-        shipped = design_from(ThreePointHitch, options.settings)
-        if type(machine) is not ThreePointHitch or machine.dimensions != shipped.dimensions:
-            what = f"{options.machine} has dimensions of its own"
-            raise DefinitionError(f"--category {options.category} goes with three_point_hitch; {what}.")
+        is_shipped = options.machine == "three_point_hitch" and not options.own
+        ensure(is_shipped, f"--category {options.category} goes with three_point_hitch; {options.machine} has dimensions of its own.")
         machine = design_from(CATEGORIES[options.category].machine, options.settings)
     path = figure_path(options, machine, "hitch")
     motions, tables = motions_at(machine, options), list[Table]()

@@ -22,6 +22,7 @@ settings.load_profile("steady")
 CHROMIUM = Path("/usr/bin/chromium")
 ARGUMENTS = (
     "--no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking --disable-component-update --disable-sync"
+    " --js-flags=--single-threaded"  # each test process has a core: more threads of one page would fight for it
 )
 WAITING = defaultdict(list)
 """By test file the plans of the machines that it brought along, whose mobility is checked before the first of its tests."""

@@ -5,10 +5,14 @@ from pathlib import Path
 import pytest
 
 LONG = {
-    "closed_curve", "crane", "crane_drives", "dwell", "exact_synthesis", "excavator", "export", "grapple", "header_balancer", "levelled",
-    "machines_at_work", "misses", "path", "planes", "redesign", "redesigns", "regions", "studies",
+    "closed_curve", "crane", "crane_drives", "cycle", "docs/files", "dwell", "exact_synthesis", "excavator", "export", "grapple",
+    "header_balancer", "levelled", "machines_at_work", "misses", "one_pump", "path", "planes", "redesign", "redesigns", "regions",
+    "studies",
 }  # fmt: skip
-"""Pages whose examples search, or tell figures of machines at length, which the tests of these machines hold."""
+"""Pages whose examples search, or tell figures of machines at length, which the tests of these machines hold.
+
+A page whose name a how-to has, too, stands here with its folder.
+"""
 
 
 @pytest.fixture(autouse=True)
@@ -19,5 +23,5 @@ def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def pytest_itemcollected(item: pytest.Item) -> None:
     """Mark the examples of long pages as slow."""
-    if item.path.stem in LONG:
+    if not LONG.isdisjoint((item.path.stem, f"{item.path.parent.name}/{item.path.stem}")):
         item.add_marker(pytest.mark.slow)

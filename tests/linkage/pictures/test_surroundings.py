@@ -21,6 +21,7 @@ from linkage.pictures.drawing import MarkPart, read_picture
 from linkage.pictures.page_data import mark_data
 from linkage.pictures.scene import Scene
 from linkage.statics import driving_force
+from linkage.surroundings import outline
 from linkage.surroundings.outline import dxf_lines
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.scissor_lift import ScissorLift
@@ -339,7 +340,7 @@ def test_blocks_that_stand_in_themselves_or_too_deep_are_refused(tmp_path):
         drawn_from(bushy)
 
 
-def test_sizes_of_a_drawing_are_bounded_before_it_is_drawn(tmp_path):
+def test_sizes_of_a_drawing_are_bounded_before_it_is_drawn(tmp_path, monkeypatch):
     ezdxf = pytest.importorskip("ezdxf", reason="drawings are read with ezdxf")
 
     def lines(add):
@@ -362,8 +363,9 @@ def test_sizes_of_a_drawing_are_bounded_before_it_is_drawn(tmp_path):
         ],
         "cannot be drawn": [lambda space, _: space.add_circle((0, 0), math.inf)],
         "leaves no digits": [lambda space, _: space.add_circle((1e11, 0), 1.0)],
-        "more than 20000 lines": [blocks],
+        "more than 1000 lines": [blocks],
     }  # fmt: skip
+    monkeypatch.setattr(outline, "MOST", 1000)  # 20,000 take seconds to insert
     for words, each_of in refused.items():
         for add in each_of:
             with pytest.raises(DefinitionError, match=words):

@@ -2,8 +2,9 @@
 
 A line takes oil where one of its chambers grows; of a LiftCircuit that has both sides the one that grows. Its need is
 (F + p a) / (A k): F is the force in the sense of the movement, p the back pressure, a the area that empties, A the one that fills, and k
-the hydraulic efficiency. The mechanical efficiency stands in F. Where a need is below zero the load drives, and is braked. A holding valve
-is opened by its pilot, whose pressure the pump has to give then.
+the hydraulic efficiency. The mechanical efficiency stands in F. Of joined cylinders F, a and A are sums over all, each by how it moves with
+the first: one past its dead point gives oil back. Where a need is below zero the load drives, and is braked. A holding valve is opened by
+its pilot, whose pressure the pump has to give then.
 Nothing of it follows the inertia: sharing is quasi-static. Friction and dampers go by the rates.
 """
 
@@ -23,7 +24,7 @@ from linkage.motion.requests import as_they_run
 from linkage.plan import Plan, rate_name
 from linkage.quantities import NamedMembers, distance, of_kind
 from linkage.quantities.member import in_class
-from linkage.statics import AnyMotion, LawRequest, each_once, same
+from linkage.statics import AnyMotion, LawRequest, each_once, same, stroke_followed
 from linkage.units import show
 
 from .cylinders import PISTON, ROD, OnLines, Ram, by_other_lines, cylinder_request, line_thrust, lines_of
@@ -41,14 +42,14 @@ STANDS = 1e-10
 class Inlet:
     """How a cylinder takes oil from a line while it extends or retracts (`sense` 1 or -1).
 
-    `sides` say with which parts the areas of its sides count, pistons first; none where it takes nothing. `back` is the pressure of what
-    it puts out [Pa], the efficiencies are the pump's.
+    `sides` say with which parts the areas of its sides count, pistons first; below zero it gives oil back to the others of its line.
+    `back` is the pressure of what it puts out [Pa], the efficiencies are the pump's.
     """
 
     line: LiftLine
     ram: Ram
     sense: float
-    sides: tuple[float, float] | None
+    sides: tuple[float, float]
     back: float
     mechanical: float
     hydraulic: float
@@ -62,17 +63,29 @@ class Inlet:
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """One cylinder's flow from one line over some instants: `flow` (m,), the `need` (m,), and its `force` and `speed` where it moves.
+    """The flow of joined cylinders from one line over some instants: `flow` (m,), the `need` (m,), `force` and `speed` of the first.
 
-    `signed` is what the need would be if a load could drive the pump.
+    `signed` is what the need would be if a load could drive the pump. `fills` is the area that fills as the first moves [m2]: where it is
+    below zero they empty the line, and need nothing of it. `speeds` are those of all.
     """
 
-    inlet: Inlet
+    inlets: tuple[Inlet, ...]
     flow: Array
     need: Array
     signed: Array
     force: Array
-    speed: Array
+    fills: Array
+    speeds: Array
+
+    @property
+    def inlet(self) -> Inlet:
+        """That of the first cylinder."""
+        return self.inlets[0]
+
+    @property
+    def is_fed(self) -> bool:
+        """Whether they take oil, in the middle of the instants."""
+        return bool(self.fills[len(self.fills) // 2] > 0.0)
 
     @property
     def useful(self) -> Array:
@@ -82,7 +95,7 @@ class Branch:
     @property
     def braked(self) -> Array:
         """The load's power that is throttled away (m,) [W]."""
-        return self.useful - (self.signed * self.flow if self.inlet.sides is not None else self.force * self.speed)
+        return self.useful - (self.signed * self.flow if self.is_fed else self.force * self.speeds[0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +132,8 @@ class Consumption:
                 known = other.signed[place]
                 known = other.signed[place + 1] if at is not None and abs(known) <= AT_BORDER * size else known
                 rows.append(each.signed * np.sign(known) / size)
-                rows.append(each.speed / max(float(np.abs(other.speed).max()), 1e-300))
+                rows += [speed / max(float(np.abs(its).max()), 1e-300) for speed, its in zip(each.speeds, other.speeds, strict=True)]
+                rows.append(each.fills * np.sign(other.fills[place]) / max(float(np.abs(other.fills).max()), 1e-300))
                 rows.append((own[lead].need - each.need) / size)
         return np.array(rows).reshape(-1, self.lengths.shape[1])
 
@@ -167,6 +181,7 @@ class Consumers:
         on = [(line, ram) for line in self.lines for ram in line.members(self.members)]
         self.inlets = [self._inlet(line, ram, sense, there) for line, ram in on for sense in (1.0, -1.0)]
         self.places = {id(ram): place for place, ram in enumerate(self.rams)}
+        self.followed = {id(ram): stroke_followed(plan, ram) for line, ram in on if len(line.members(plan.members)) > 1}
         self.valved = [each for each in self.inlets if each.valve is not None]
         asked += [pilot_request(each, acting) for each in self.valved]
         self.designs, self._asked = designs, as_they_run(asked, False)
@@ -182,16 +197,15 @@ class Consumers:
         """Return how a cylinder takes oil from a line while it moves in a sense."""
         own = [chamber.side for each, chamber in line.filling(self.members) if same(each, ram)]
         joined = len(own) > 1 and ram.side == "regenerative"
-        sides = (1.0, 0.0) if sense > 0.0 and PISTON in own else (0.0, 1.0) if sense < 0.0 and ROD in own else None
-        if joined:
-            sides = (1.0, -1.0) if sense > 0.0 else None
+        filled, emptied = (PISTON, ROD) if sense > 0.0 else (ROD, PISTON)
+        empties = emptied in own and (joined or filled not in own)
+        piston, rod = (float(side == filled and side in own) - float(side == emptied and empties) for side in (PISTON, ROD))
         mechanical, hydraulic = (one_design(self.pumped[line].efficiency(there, kind)) for kind in ("mechanical", "hydraulic"))
         back = 0.0 if joined else one_design(line.back(there))
-        way = "extending" if sense > 0.0 else "retracting"
-        valves = of_kind(self.members, OnLines).values()
-        acting = Acting(direction=way)
-        lowering = (each for each in valves if each.pressure_lowering(line, ram, there, acting) is not None) if sides is not None else ()
-        return Inlet(line, ram, sense, sides, back, mechanical, hydraulic, next(iter(lowering), None))
+        acting = Acting(direction="extending" if sense > 0.0 else "retracting")
+        valves = of_kind(self.members, OnLines).values() if filled in own else ()
+        lowering = (each for each in valves if each.pressure_lowering(line, ram, there, acting) is not None)
+        return Inlet(line, ram, sense, (piston, rod), back, mechanical, hydraulic, next(iter(lowering), None))
 
     # -- over instants -------------------------------------------------------------------------------------
 
@@ -219,45 +233,68 @@ class Consumers:
         pilots = dict(zip(map(id, self.valved), rows[len(self.rams) * (count + 5) :], strict=True))
         slopes = each_of[:, 2 : count + 2]
         speeds = [(slopes * way).sum(axis=1) for way in ways]
+        begun = [(slopes * self._begun(way)).sum(axis=1) for way in ways]
         if like is None:
-            moving = [self._moving(speed, way) for speed, way in zip(speeds, ways, strict=True)]
+            areas = each_of[:, -3:-1, many // 2]
+            moving = [self._moving(areas, speed[:, many // 2], way) for speed, way in zip(speeds, ways, strict=True)]
         else:
-            moving = [[each.inlet for each in own] for own in like.branches]
-        found = [self._branches(each_of, speed, inlets, pilots) for speed, inlets in zip(speeds, moving, strict=True)]
+            moving = [[each.inlets for each in own] for own in like.branches]
+        each_way = zip(speeds, begun, moving, strict=True)
+        found = [[self._branch(each_of, speed, goes, own, pilots) for own in joined] for speed, goes, joined in each_way]
         return Consumption(found, each_of[:, 1], slopes)
 
-    def _moving(self, speeds: Array, way: Array) -> list[Inlet]:
-        """Return the inlets of those cylinders that move, each in its sense in the middle of the instants."""
-        middle = speeds.shape[1] // 2
-        least = STANDS * np.abs(way[:, middle]).sum()
-        moves = {id(ram): float(speed) for ram, speed in zip(self.rams, speeds[:, middle], strict=True)}
-        return [each for each in self.inlets if each.sense * moves[id(each.ram)] > least and not self._is_filled_elsewhere(each)]
+    @staticmethod
+    def _begun(way: Array) -> Array:
+        """Return a way without the instants at which all stands: as at the nearest one at which something moves."""
+        moved = np.flatnonzero(way.any(axis=0))
+        nearest = np.abs(np.arange(way.shape[1])[:, None] - moved).argmin(axis=1) if len(moved) else 0
+        return way[:, moved[nearest]] if len(moved) else way
 
-    def _branches(self, each_of: Array, speeds: Array, inlets: Sequence[Inlet], pilots: Mapping[int, Array]) -> list[Branch]:
-        found = list[Branch]()
-        for inlet in inlets:
-            place = self.places[id(inlet.ram)]
-            thrust, areas, tanks = each_of[place, 0], each_of[place, -3:-1], inlet.sense * each_of[place, -1]
-            force, speed = inlet.sense * thrust + tanks, inlet.sense * speeds[place]
-            force = np.where(force > 0.0, force / inlet.mechanical, force * inlet.mechanical) - tanks
-            if inlet.sides is None:
-                nothing = np.zeros(len(force))
-                found.append(Branch(inlet, nothing, nothing, force, force, speed))
-                continue
-            fills, empties = inlet.sides @ areas, areas[1] if inlet.sense > 0.0 else areas[0]
-            signed = (force + inlet.back * empties) / (fills * inlet.hydraulic)
-            need = signed if id(inlet) not in pilots else np.where(signed < 0.0, pilots[id(inlet)], signed)
-            found.append(Branch(inlet, fills * speed, need, signed, force, speed))
-        return found
+    def _moving(self, areas: Array, speeds: Array, way: Array) -> list[tuple[Inlet, ...]]:
+        """Return the inlets of cylinders that move, joined as one stroke moves them on one line, the one that takes or gives most first.
 
-    def _is_filled_elsewhere(self, inlet: Inlet) -> bool:
-        """Return whether a cylinder that takes nothing from a line is filled by another one while it moves that way."""
-        if inlet.sides is not None:
-            return False
+        `areas` are those of their sides (rams, 2), `speeds` (rams,) those in the middle of the instants. Of those that empty their line
+        the ones are left out that another line fills while they move so.
+        """
+        least = STANDS * np.abs(way[:, way.shape[1] // 2]).sum()
+        joined, flows = dict[tuple[LiftLine, str], list[Inlet]](), dict[int, float]()
+        for each in self.inlets:
+            place = self.places[id(each.ram)]
+            if each.sense * speeds[place] > least:
+                flows[id(each)] = float(each.sides @ areas[place] * abs(speeds[place]))
+                joined.setdefault((each.line, self.followed.get(id(each.ram), "")), []).append(each)
+        groups = [sorted(own, key=lambda each: -abs(flows[id(each)])) for own in joined.values()]
+        is_fed = [sum(flows[id(each)] for each in own) > 0.0 for own in groups]
+        fed = {id(each.ram) for own, takes in zip(groups, is_fed, strict=True) for each in own if takes}
+        found = []
+        for own, takes in zip(groups, is_fed, strict=True):
+            found.append(tuple(each for each in own if takes or not (id(each.ram) in fed or self._is_filled_by_another(each))))
+        return [each for each in found if each]
+
+    def _branch(self, each_of: Array, speeds: Array, begun: Array, inlets: tuple[Inlet, ...], pilots: Mapping[int, Array]) -> Branch:
+        """Return the flow of joined cylinders; their speeds that have `begun` tell how they go with the first, where all stands, too."""
+        first, places = inlets[0], [self.places[id(each.ram)] for each in inlets]
+        senses = np.array([each.sense for each in inlets])[:, None]
+        moved, goes = senses * speeds[places], senses * begun[places]
+        goes = goes / np.where(goes[0] == 0.0, 1.0, goes[0])
+        goes[0] = 1.0
+        drained = (goes * senses * each_of[places, -1]).sum(axis=0)
+        force = (goes * senses * each_of[places, 0]).sum(axis=0) + drained
+        force = np.where(force > 0.0, force / first.mechanical, force * first.mechanical) - drained
+        sides = np.array([each.sides for each in inlets])
+        returns = sides[:, ::-1] * np.array([[each.back] for each in inlets])
+        filled, emptied = (goes * np.einsum("rs,rsm->rm", parts, each_of[places, -3:-1]) for parts in (sides, returns))
+        fills, nothing = filled.sum(axis=0), np.zeros(speeds.shape[1])
+        if not fills[len(fills) // 2] > 0.0:
+            return Branch(inlets, nothing, nothing, force, force, fills, moved)
+        signed = (force + emptied.sum(axis=0)) / (fills * first.hydraulic)
+        need = signed if id(first) not in pilots else np.where(signed < 0.0, pilots[id(first)], signed)
+        return Branch(inlets, fills * moved[0], need, signed, force, fills, moved)
+
+    def _is_filled_by_another(self, inlet: Inlet) -> bool:
+        """Return whether a line of another pump fills a cylinder while it moves that way."""
         fills = PISTON if inlet.sense > 0.0 else ROD
-        held = [line for line, each in lines_of(inlet.ram, self.members, "held") if each.side == fills and line not in self.lines]
-        mine = [each.line for each in self.inlets if each.ram is inlet.ram and each.sense == inlet.sense and each.sides is not None]
-        return bool(held or mine)
+        return any(each.side == fills and line not in self.lines for line, each in lines_of(inlet.ram, self.members, "held"))
 
 
 def in_plan(pump: ForceElement, plan: Plan) -> ForceElement:
@@ -305,8 +342,8 @@ def pilot_request(inlet: Inlet, acting: Acting) -> LawRequest:
 def refuse_unpushed(branch: Branch, time: Array, pump: ForceElement) -> None:
     """Raise DefinitionError where a cylinder is to move that neither oil nor its load pushes that way."""
     inlet, pump_name = branch.inlet, pump.name or "supply"
-    at = np.flatnonzero((branch.force > AT_BORDER * np.abs(branch.force).max()) & (branch.speed > 0.0))
-    if len(at) and inlet.sides is None:
+    at = np.flatnonzero((branch.force > AT_BORDER * np.abs(branch.force).max()) & (branch.speeds[0] > 0.0))
+    if len(at) and not branch.is_fed:
         ram, other = inlet.ram.name, "rod" if inlet.sense < 0.0 else "piston"
         instant = show(float(time[max(at[0] - 1, 0)]), "s", 4)
         what = f"{ram} cannot go on {inlet.direction} at {instant}: its load resists, and no pump fills its {other} side"

@@ -152,7 +152,7 @@ class PumpCycle:
                 for branch in branches:  # its flow, times its consumer's share
                     name = branch.inlet.line.name
                     flow[name][own] += part * branch.flow
-                    if branch.inlet.sides is not None:
+                    if branch.is_fed:
                         needed = each.pressure if place in each.blocked else np.maximum(branch.need, 0.0)
                         need[name][own] = np.maximum(need[name][own], needed)
                     parts["useful"][own] += part * branch.useful

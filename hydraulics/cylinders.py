@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited, ensure, is_listed, known_name, require, unknown, unwarned
 from linkage.frozen import immutable, refuses_changes
 from linkage.language import noted, said, translated
-from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, DrawnAs, ForceElement, LawElement, Push, Rates, TwoPoint
+from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, SENSES, DrawnAs, ForceElement, LawElement, Push, Rates, TwoPoint
 from linkage.loads.acting import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
 from linkage.loads.element import DIRECTIONS, UNBOUNDED, Declared, Formulas, Parameter, Poses, Share, Tie, by_speeds, require_poses
 from linkage.motion import Answer, Column, Judge, Motion, Question, Request, SmoothPiece, Tabled, greatest, lowest, require_motion
@@ -503,7 +503,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         line = circuit or circuit_having(self, motion.plan, False)
         beside = line_beside(self, side, line, motion.plan.members)
         if beside is not None:
-            return beside.line_pressure(motion, acting) + np.zeros(motion.shape)
+            return beside.pressure_in(self, motion, acting) + np.zeros(motion.shape)
         thrust = line_thrust(self, line, motion, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
@@ -514,7 +514,9 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         if (acting.movement == FRICTIONLESS and goes is None) or (self.side not in (side, "both") and self.side != "regenerative"):
             return at_rest
         found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
-        return np.where(along > 0.0, found, least if goes is None else at_rest) + 0.0 * thrust
+        found = np.where(along > 0.0, found, least if goes is None else at_rest) + 0.0 * thrust
+        own = next((one for one, chamber in lines_of(self, motion.plan.members) if chamber.side == side), None)
+        return found if own is None else over_valves(own, self, motion, acting, found)
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return its thrust without friction and, unless circuits differ in them, its pressure and its reserve, for the table."""
@@ -710,14 +712,16 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     def stopped(self, judge: Judge) -> list[Verdict]:
         """Return the force with which a pump pushes it against a stop where it is longest, and how far that is from buckling."""
-        pushing = [(each, each.pressure_out(self, judge.motion)) for each in circuits_among(judge.plan.members)]
-        given = [(one_design(pressure), each.unit_in(judge)) for each, pressure in pushing if pressure is not None]
         longest = judge.answer(most(distance(self.A, self.B)))
-        if not given or np.isnan(longest.value):
+        if np.isnan(longest.value):
             return []
-        place, (pressure, unit), times = judge.there(longest), max(given), f"{self.count} × " if self.count > 1 else ""
+        place = judge.there(longest)
+        pushing = [(push, each.unit_in(judge)) for each in circuits_among(judge.plan.members) if (push := each.push_out(self, place))]
+        if not pushing:
+            return []
+        ((pressure, whole), unit), times = max(pushing, key=lambda each: each[0]), f"{self.count} × " if self.count > 1 else ""
         bar = Buckling(float(self.thickness(place, "extending")), self.mounting, self.safety)
-        force, limit = pressure * float(self.sized(place, "extending").outward_area) / self.count, float(bar.critical(longest.value))
+        force, limit = whole / self.count, float(bar.critical(longest.value))
         text = said(
             "Against a stop, which this rule leaves out, {ram} pushes with {force} at {pressure}, whatever its load. "
             "At its longest, {length}, it buckles at {limit}: safety {safety}.",
@@ -1646,8 +1650,8 @@ class Circuit(OnLines, HasVerdicts):
         """Return the mechanical efficiency with which its pump pushes a cylinder out; 1 where none does."""
         return 1.0
 
-    def pressure_out(self, cylinder: Ram, motion: AnyMotion) -> Array | None:
-        """Return the highest pressure with which it pushes a cylinder out against a stop [Pa gauge]; None where no pump does."""
+    def push_out(self, cylinder: Ram, motion: Motion) -> tuple[float, float] | None:
+        """Return the highest pressure [Pa gauge] and thrust [N] with which it pushes a cylinder out at a pose; None where no pump does."""
         return None
 
     def use_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
@@ -1712,8 +1716,19 @@ def by_other_lines(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Ac
         if tanks is not None and tanks is not (kind == "given" and other.is_drained):
             continue
         if (line is None or not same(other, line)) and (kind == "given" or (kind == "closed" and acting is not None)):
-            thrust = thrust + other.line_pressure(motion, acting) * chamber_area(chamber, ram, motion)
+            thrust = thrust + other.line_pressure(motion, None if kind == "given" else acting) * chamber_area(chamber, ram, motion)
     return thrust
+
+
+def over_valves(line: Circuit, ram: Ram, motion: AnyMotion, acting: Acting, otherwise: Array) -> Array:
+    """Return the pressure of a line while a cylinder goes down over a holding valve, over a path in time where it does [Pa gauge]."""
+    goes, found = ram.goes(motion, acting), otherwise
+    for valve in of_kind(motion.plan.members, OnLines).values():
+        for way in (acting.direction,) if goes is None else ("extending", "retracting"):
+            lowered = valve.pressure_lowering(line, ram, motion, replace(acting, direction=way))
+            if lowered is not None and way is not None:
+                found = lowered if goes is None else np.where(goes == SENSES[way], lowered, found)
+    return found
 
 
 def line_beside(ram: Ram, side: str | None, line: Circuit | None, members: NamedMembers) -> Circuit | None:

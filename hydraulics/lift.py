@@ -25,7 +25,7 @@ from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
 from linkage.quantities.member import in_class
 from linkage.statics import LawRequest, elements_of, is_among, same
 from linkage.units import UNITS, litre, show
-from linkage.verdict import Verdict
+from linkage.verdict import Remark, Verdict
 
 from .cylinders import (
     PISTON,
@@ -311,9 +311,18 @@ def line_verdicts(circuit: PumpLine, judge: Judge, resistance: float = 0.0, unit
     return [
         *(with_name(each.lifting(), each.ram, several) for each in cylinders),
         oil_verdict(circuit, judge),
+        *relief_remark(circuit, judge, unit),
         *(with_name(each.holding(), each.ram, several) for each in cylinders),
         *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders if each.lowers_alone),
     ]
+
+
+def relief_remark(circuit: PumpLine, judge: Judge, unit: str) -> list[Verdict]:
+    """Return the remark that a relief valve opens before the pump gives its pressure, where that is so."""
+    supply, pump = one_design(circuit.supply(judge.motion)), one_design(circuit.number(judge.motion, "pressure"))
+    by = {"line": circuit.name, "relief": show(supply, unit, 4), "pump": show(pump, unit, 4)}
+    text = said("The relief valve of {line} opens at {relief}, below the pump's {pump}: it lifts with no more than {relief}.", **by)
+    return [Remark(text)] if supply < pump else []
 
 
 def with_name(verdict: Verdict, ram: Ram, several: bool) -> Verdict:

@@ -28,7 +28,7 @@ from linkage.loads.element import Declared, ForceElement, Formulas, Parameter, P
 from linkage.motion import Answer, Judge, Motion, greatest, lowest
 from linkage.plan import Mask, Plan
 from linkage.program import is_traced
-from linkage.quantities import NamedMembers, Reference, of_kind
+from linkage.quantities import NamedMembers, Reference
 from linkage.statics import (
     PROBE,
     AnyMotion,
@@ -52,7 +52,6 @@ from .cylinders import (
     ROD,
     Chamber,
     Circuit,
-    OnLines,
     Ram,
     Reading,
     Side,
@@ -62,6 +61,7 @@ from .cylinders import (
     line_thrust,
     lines_of,
     other_side,
+    over_valves,
     thrust_along,
 )
 from .inputs import Array, efficient, follows, in_cubic_metres, in_pascals, not_negative, number_set, only_where, positive, proper_share
@@ -206,7 +206,7 @@ def way_back(
     back = np.where(is_turned, -sense, sense)
     asks = np.where(back * asks > 0.0, asks / k_m, asks * k_m)
     beside = line_beside(ram, other_side(ram), line, held_in_case(motion, acting).plan.members)
-    tank = beside.line_pressure(motion, acting) if beside is not None and beside.is_drained else np.zeros(())
+    tank = beside.line_pressure(motion) if beside is not None and beside.is_drained else np.zeros(())
     found = np.maximum((asks - drained) / out, 0.0), (asks - against * out - drained) / into, tank
     pressures = [np.asarray(each)[()] for each in found]
     working, push, tank = pressures if goes is None else [only_where(goes * back > 0.0, each) for each in pressures]
@@ -475,21 +475,11 @@ class LiftLine(Circuit):
         members = motion.plan.members
         if is_blocked(ram, members):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
-        goes, lowered = ram.goes(motion, acting), list[tuple[Mask, Array]]()
-        for valve in of_kind(members, OnLines).values():
-            for way in (acting.direction,) if goes is None else ("extending", "retracting"):
-                lowering = valve.pressure_lowering(self, ram, motion, replace(acting, direction=way))
-                if lowering is not None and goes is None:
-                    return lowering
-                if lowering is not None and way is not None:  # over a path in time it counts where it goes that way
-                    lowered.append((np.asarray(goes == SENSES[way]), lowering))
         work = self.work_of_all(ram, motion, acting)
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
         found = np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
-        for there, pressure in lowered:
-            found = np.where(there, pressure, found)
-        return found
+        return over_valves(self, ram, motion, acting, found)
 
     def pressure_behind(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         asks, drained, _, into = sums_back(cylinder, self, motion, acting, cylinder.ways_back(0.0, 0.0)[0])
@@ -507,8 +497,12 @@ class LiftLine(Circuit):
     def efficiency_out(self, cylinder: Ram, motion: AnyMotion) -> Array | float:
         return self.efficiency(motion, "mechanical") if self._pushes_out(cylinder, motion.plan.members) else 1.0
 
-    def pressure_out(self, cylinder: Ram, motion: AnyMotion) -> Array | None:
-        return self.relief_pressure(motion) if self._pushes_out(cylinder, motion.plan.members) else None
+    def push_out(self, cylinder: Ram, motion: Motion) -> tuple[float, float] | None:
+        if not self._pushes_out(cylinder, motion.plan.members):
+            return None
+        size, pressure = cylinder.sized(motion, "extending"), self.relief_pressure(motion)
+        back = self.back(motion) * size.inward_area - by_other_lines(cylinder, self, motion, None)
+        return float(pressure), float(np.squeeze(pressure * size.outward_area - back))
 
     def use_of(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array | None:
         if self.kind_open(motion.plan.members) != "held":
@@ -750,7 +744,7 @@ class LiftLine(Circuit):
             working.append(np.maximum(size.sense * thrust, 0.0) / size.area)
             beside = line_beside(ram, other_side(ram), self, held_in_case(motion, given).plan.members)
             if beside is not None:
-                other.append(beside.line_pressure(motion, given) + 0.0 * thrust)
+                other.append(beside.line_pressure(motion, plain) + 0.0 * thrust)
             elif np.all(size.back_area > 0.0):
                 other.append(np.maximum(self.pressure_behind(ram, motion, plain), 0.0))
             else:

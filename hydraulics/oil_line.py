@@ -55,6 +55,7 @@ from .cylinders import (
     lines_giving,
     lines_of,
     number_request,
+    over_valves,
     side_left,
     the_cylinder,
 )
@@ -372,7 +373,8 @@ class OilLine(PumpLine, GasLine):
         if tanks and self.blocks:
             yield "accumulators and a tank give its pressure both; take one out"
         each_of = (pumps, "pumps"), (tanks, "tanks"), (valves, "relief valves"), (self.blocks, "blocks of accumulators")
-        yield from (f"{len(found)} {what} are on one line; leave one" for found, what in each_of if len(found) > 1)
+        beside = {"pumps": ", with the flow of both, Pump(..., flow=...)"}
+        yield from (f"{len(found)} {what} are on one line; leave one{beside.get(what, '')}" for found, what in each_of if len(found) > 1)
         kind = self.kind_in(members)
         counting = NUMBERS["closed"] if kind == "closed" else NUMBERS["given"] if self.block is not None else ()
         says = {"held": "a pump holds its pressure", "closed": "it is closed", "given": "its pressure is given"}[kind]
@@ -630,6 +632,10 @@ class OilLine(PumpLine, GasLine):
         return intensified(self, motion, situation_of("intensified", loads=loads, **situation))
 
     def line_pressure(self, motion: Any, acting: Acting | None = None) -> Array:
+        return self._pressure_with(None, motion, acting)
+
+    def _pressure_with(self, cylinder: Ram | None, motion: Any, acting: Acting | None) -> Array:
+        """Return its pressure while one of its cylinders moves as the situation says, by default the first one [Pa gauge]."""
         motion, asked = held_in_case(motion, acting), Acting() if acting is None else acting
         members = motion.plan.members
         kind = self.kind_open(members)
@@ -638,7 +644,8 @@ class OilLine(PumpLine, GasLine):
         if kind == "closed" or as_in(motion.plan, self)._is_shut:
             return standing_pressure(self, motion, asked)
         tanks = self.supplies(members, Tank)
-        return in_pascals(number_set(tanks[0], motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
+        found = in_pascals(number_set(tanks[0], motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
+        return found if acting is None else over_valves(self, cylinder or self.rams(motion)[0], motion, acting, found)
 
     def least(self, motion: Poses) -> Array | float:
         """Return the pressure below which it runs empty [Pa].
@@ -708,7 +715,7 @@ class OilLine(PumpLine, GasLine):
     def pressure_in(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
         if self.kind_open(motion.plan.members) == "held":
             return PumpLine.pressure_in(self, cylinder, motion, acting)
-        return GasLine.pressure_in(self, cylinder, motion, acting) + np.zeros(motion.shape)
+        return self._pressure_with(cylinder, motion, acting) + np.zeros(motion.shape)
 
     def bounds_of(self, cylinder: Reference, motion: Poses, lifting: bool, *, share: float = 1.0) -> tuple[Array, Array]:
         """Return between which two thrusts it lets one of its cylinders stand [N].

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from linkage.errors import DefinitionError, ensure, known_name
-from linkage.loads import DIRECTIONS, SENSES, Acting, Case, situation_of
+from linkage.loads import DIRECTIONS, FRICTIONLESS, SENSES, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
 from linkage.plan import Mask, Plan
@@ -198,7 +198,8 @@ def pressure_request(
             circuit_having(cylinder_in(cylinder, plan), plan)
 
     def directions(plan: Plan) -> tuple[str, ...]:
-        return cylinder_on(cylinder, circuit, plan, "pressure").driven if is_needed and line_in(cylinder, plan) is None else DIRECTIONS
+        is_driven = is_needed and line_in(cylinder, plan) is None
+        return cylinder_on(cylinder, circuit, plan, "pressure").driven if is_driven else (*DIRECTIONS[1:], FRICTIONLESS)
 
     def pieces(request: LawRequest, plan: Plan) -> tuple[SmoothPiece, ...]:
         if line_in(cylinder, plan) is not None:
@@ -311,8 +312,6 @@ def reserve_request(cylinder: str | Ram, acting: Acting, circuit: Circuits = "",
 
     def over_needed(motion: AnyMotion, ram: Ram, acting: Acting) -> Array:
         line = circuit_with(motion.plan, ram, circuit, "reserve")
-        if not is_judged:
-            return line.reserve(motion, cylinder=ram, acting=lifting(line, motion, ram, acting))
         work, against = work_of(line, motion, ram, acting)
         with np.errstate(invalid="ignore"):
             return np.asarray(line.most(motion, work) / only_where(against > 0.0, work.force))[()]

@@ -80,15 +80,22 @@ def shut_verdicts(line: Circuit, judge: Judge) -> list[Verdict]:
     pump = pumps_against(line, plan.members) if pushing else None
     if not cases or (line.kind_open(plan.members) != "given" and pump is None):
         return []  # what it holds, or keeps, is told by its other verdicts
+    found, lines = shut_verdict(line, judge, pump), {each for case in cases for each in plan.of_kind(LoadCase)[case].shut_names}
+    return [found.named(line.name) if len(lines) > 1 else found]
+
+
+def shut_verdict(line: Circuit, judge: Judge, pump: LiftLine | None) -> Verdict:
+    """Return the verdict on a line that is shut; `pump` is the line that pushes from the other side."""
+    plan = judge.plan
     try:
         low, high = judge.answers(least_and_most(shut_request(line, False)))
         pushed = None if pump is None else judge.answer(most(shut_request(line, True)))
     except DefinitionError as error:
-        return [Verdict.refused("shut", error)]
+        return Verdict.refused("shut", error)
     says = pressure_range(low, high, "bar") if high.value > 0.0 or low.value < 0.0 else said("it holds no pressure")
     if low.value < -EMPTY * max(abs(float(high.value)), 1e5):
         text = said("{says}: below zero it runs empty there and does not hold; shut the other side as well.", says=says)
-        return [Verdict("shut", False, text, answer=low)]
+        return Verdict("shut", False, text, answer=low)
     worst = high if pushed is None else pushed
     if pump is not None and pushed is not None:
         given = show(one_design(pump.supply(judge.motion)), "bar", 4)
@@ -99,7 +106,7 @@ def shut_verdicts(line: Circuit, judge: Judge) -> list[Verdict]:
     own = isinstance(line, LiftLine) and line.relieves(plan)
     bears = line if own else pump
     if not isinstance(bears, LiftLine):
-        return [Verdict("shut", True, f"{says}.", answer=worst)]
+        return Verdict("shut", True, f"{says}.", answer=worst)
     limit = one_design(bears.relief_pressure(judge.motion))
     by, bears_it = {"says": says, "limit": show(limit, "bar", 4), "line": line.name}, float(worst.value) <= limit * (1.0 + EMPTY)
     if bears_it:
@@ -108,4 +115,4 @@ def shut_verdicts(line: Circuit, judge: Judge) -> list[Verdict]:
         text = said("{says}: its relief valve opens at {limit}, and it does not stay shut.", **by)
     else:
         text = said("{says}, above the {limit} on the pump's side: put a Relief on {line}, or switch the pump off while it is shut.", **by)
-    return [Verdict("shut", bears_it, text, answer=worst)]
+    return Verdict("shut", bears_it, text, answer=worst)

@@ -372,7 +372,8 @@ class PumpedMachine:
             if moved <= 2e-14 and steady:
                 needs = [each for each in found.consumption.needs if np.all(np.isfinite(each))]
                 smooth = is_smooth([*found.rates / size], 1.0) and is_smooth([*needs, found.pump_pressure], self.limits.cut_off)
-                return (passed, found) if width <= 10.0 * SHORTEST or smooth else None
+                begun = (each.speeds[:, 0] >= -AT_BORDER * np.abs(each.speeds).max() for own in found.consumption.branches for each in own)
+                return (passed, found) if width <= 10.0 * SHORTEST or (smooth and all(map(np.all, begun))) else None
         return None
 
     def broken(self, time: Array, strokes: Array, mode: Mode, moment: FlowState) -> int | None:

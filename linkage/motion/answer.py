@@ -88,6 +88,8 @@ class Answer:
         What sentences have to name, since there are several: "case", "direction", "drive", "side", "over".
     leg : int or array
         Which leg of a path it is on, from 0; -1 of a box and of poses.
+    turned : str
+        Of an integral over an angle what stands behind its unit: "rad", or "rad2" of an angle's; "" of a moment's, which is a work.
     """
 
     question: object
@@ -112,6 +114,7 @@ class Answer:
     named: frozenset[str] = frozenset()
     """What has to be named, as there are several: "case", "direction", "drive", "side", "over"."""
     leg: PerDesign = -1
+    turned: str = ""
 
     def __repr__(self) -> str:
         kept = "" if np.ndim(self.value) or self.ok is None else ": kept" if self.ok else ": not kept"
@@ -180,7 +183,11 @@ class Answer:
         """The value in words, with its unit where that is known."""
         if self.status == UNBOUNDED:
             return said("without bounds")
-        return show(float(self.value), display_unit(self.measures, "mm"), 6)
+        return self._shown(float(self.value))
+
+    def _shown(self, value: float) -> str:
+        """Return a value with its unit, in words."""
+        return f"{show(value, display_unit(self.measures, 'mm'), 6)} {self.turned}".strip()
 
     def __str__(self) -> str:
         if np.ndim(self.value):
@@ -209,8 +216,7 @@ class Answer:
         known = values[~np.isnan(values)]
         if not known.size:
             return said("no value at any pose")
-        unit = display_unit(self.measures, "mm")
-        low, high = (show(float(each), unit, 6) if np.isfinite(each) else said("without bounds") for each in (known.min(), known.max()))
+        low, high = (self._shown(float(each)) if np.isfinite(each) else said("without bounds") for each in (known.min(), known.max()))
         if low == high:
             return f"{low} {self.where}".strip()
         return f"{said('{low} to {high}', low=low, high=high)} {self.where}".strip()

@@ -33,7 +33,7 @@ from .evaluation import Evaluation
 from .functions import evaluate_bound
 from .grid import Grid, recalled
 from .instants import Instants
-from .limits import LoopMargin, stroke_unit
+from .limits import LoopMargin, stroke_measure, stroke_unit
 from .measures import (
     At,
     CombinedMeasure,
@@ -715,10 +715,10 @@ class Judge:
         return any(bool(np.any(seen.lost_share + seen.outside < 1.0 - 1e-12)) for seen in self._seen)
 
     @property
-    def is_empty(self) -> bool:
-        """Whether no place is left to look at: conditions (`only=`) leave every one out."""
+    def empty(self) -> list[Domain]:
+        """The domains of which no place is left to look at: conditions (`only=`) leave every one out."""
         self.answers([reachable])
-        return all(bool(np.all(seen.outside >= 1.0)) for seen in self._seen)
+        return [place for place, seen in zip(self.places, self._seen, strict=True) if np.all(seen.outside >= 1.0)]
 
     def answer(self, question: Question) -> Answer:
         """Return the answer to one question."""
@@ -914,7 +914,7 @@ class Judge:
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
             place.over.name, lost, float(worst.unlimited), outside, place.width if worst.seen is not None else {}, count, units,
             measures_of(self.plan, question), float(worst.time) if known else np.nan, named,
-            int(worst.leg) if known else -1,
+            int(worst.leg) if known else -1, turned_by(place, question),
         )  # fmt: skip
 
     def reached_by(self, design: tuple[int, ...]) -> Answer:
@@ -1086,6 +1086,15 @@ def measures_of(plan: Plan, question: object) -> str:
         case Leaf():
             return measured_in(plan, stands_for(plan.members, measure.quantity))
     return ""
+
+
+def turned_by(place: Domain, question: object) -> str:
+    """Return "rad" for an integral over an angle, behind its unit, "rad2" for that of an angle; "" for a work and all else."""
+    asked = question.left if isinstance(question, Constraint) else question
+    if not isinstance(asked, Integral) or stroke_measure(place.plan, asked.by or place.running[0]) != "angle":
+        return ""
+    kind = measured_in(place.plan, stands_for(place.plan.members, asked.quantity))
+    return "" if kind in ("", "moment", "number") else "rad2" if kind == "angle" else "rad"
 
 
 def integrated(row: SearchRow, place: Domain) -> Candidate:

@@ -260,9 +260,9 @@ def is_pushed(judge: Judge, stroke: str) -> bool:
     return any(stroke in judge.plan.reaches(end) for ends in (*bars, *held) for end in ends)
 
 
-def domain_words(judge: Judge) -> str:
-    """Return all that a judge looks at in words: the strokes of each `Over`, with its name where there are several."""
-    named = [(place.over.name if len(judge.places) > 1 else "", place.over.words(place.motion)) for place in judge.places]
+def domain_words(judge: Judge, among: Sequence[Domain] = ()) -> str:
+    """Return all that a judge looks at in words, or some of it: the strokes of each `Over`, with its name where there are several."""
+    named = [(place.over.name if len(judge.places) > 1 else "", place.over.words(place.motion)) for place in among or judge.places]
     return "; ".join(f"{name}: {words}" if name else words for name, words in named)
 
 
@@ -270,10 +270,10 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     """Return whether it is assembled wherever it runs; if not, the lost share, the missing length in the deepest place, a remedy."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
-    answer = judge.answer(reachable)
-    spans = domain_words(judge)
+    answer, empty = judge.answer(reachable), judge.empty
+    spans = domain_words(judge, [place for place in judge.places if place not in empty])
     ok: bool | None = bool(answer.ok)
-    if judge.is_empty:
+    if len(empty) == len(judge.places):
         ok, text = None, said("over {spans} no place is left to look at.", spans=spans)
     elif nowhere := [name for name in judge.plan.ground if not np.isfinite(judge.places[0].motion[name]).all()]:
         text = said("{point} has no place, as its coordinates have no value. Change a dimension.", point=opening(judge.plan, nowhere[0]))
@@ -299,7 +299,13 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     text = f"{text} {said('It runs beyond the declared {strokes}.', strokes=', '.join(beyond))}" if beyond else text
     if scarcely:
         text += " " + said("Of the declared {strokes} it runs less than 1 %: are lengths in m, angles in rad?", strokes=", ".join(scarcely))
-    return [Verdict("assembly", ok, text, answer=answer)]
+    passed = [said("over {spans} no place is left to look at.", spans=domain_words(judge, empty))] if empty and ok is not None else []
+    occurring = [place.over.cases for place in judge.places]
+    is_declared = judge.acting.case is None and all(place.over.name for place in judge.places)
+    for case in judge.plan.of_kind(LoadCase) if is_declared and None not in occurring else ():
+        if not any(case in cases for cases in occurring if cases):
+            passed.append(said("The load case {case} occurs over no Over, so that nothing is judged in it.", case=case))
+    return [Verdict("assembly", ok, text, answer=answer), *(Remark(f"{each[0].upper()}{each[1:]}") for each in passed)]
 
 
 SCARCELY = 0.01
@@ -382,7 +388,7 @@ def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
 
 def told_apart(rules: Iterable[tuple[str, str]], members: Mapping[str, HasVerdicts]) -> set[tuple[str, str]]:
     """Return those of the rules of members that bear their names: those that several follow, and all of who is named in all."""
-    followed = set(rules)
+    followed = {(name, rule) for name, rule in rules if not rule.endswith(f" {name}")}
     count = Counter(rule for _, rule in followed)
     sharing = {name for name, rule in followed if count[rule] > 1}
     own = {(name, rule) for name, rule in followed if name in sharing and members[name].named_in_all}

@@ -1,14 +1,38 @@
 """One integral: a work is the same number at every door that gives it, and that of the energy which it leaves."""
 
+import re
+from random import Random
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import pressure
-from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Mechanism, Over, Stroke, Weight, drive_force, integral, kN, optimise, ref, y
+from hydraulics import Cylinder, OilLine, Pump, pressure, reserve, thrust
+from linkage import (
+    LEFT,
+    Crank,
+    DefinitionError,
+    Dyad,
+    Force,
+    Ground,
+    Mechanism,
+    Over,
+    Stroke,
+    Weight,
+    angle,
+    distance,
+    drive_force,
+    integral,
+    kN,
+    most,
+    optimise,
+    ref,
+    y,
+)
 from linkage.files.study_tasks import TextMeasures
 from linkage.study import monte_carlo, tornado
 from mechanisms.three_point_hitch import ThreePointHitch
+from tests.for_all import for_all
 from tests.laws.test_runs import Lift
 from tests.linkage.study.test_search_ends import Boom, Scissor
 
@@ -68,6 +92,30 @@ def test_an_integral_where_one_of_several_strokes_runs_has_its_unit():
     assert [str(each).split()[1] for each in Lift().answers(asked, over=over)] == ["Nm", "Nm", "cm2", "Nm"]
     with pytest.raises(DefinitionError, match=r"'Q' is unknown .*Known: S, T"):
         Lift().answers([integral(drive_force("S"), by="Q")], over=over)
+
+
+@for_all("seed", range(3))
+def test_an_integral_over_an_angle_ends_in_rad_and_a_pressure_is_told_of_the_movement_it_was_worked_out_for(seed):
+    draw = Random(seed)
+    losses = dict(mechanical_efficiency=draw.uniform(0.8, 0.95), hydraulic_efficiency=draw.uniform(0.8, 1.0))
+    works, force = (("piston", -1.0), ("rod", 1.0))[seed % 2]
+
+    class Turning(Mechanism):
+        phi = Stroke(-0.5, 0.5)
+        O, A = Ground(0.0, 0.0), Ground(draw.uniform(0.2, 0.4), -0.5)
+        B = Crank(O, OB=0.5, angle=phi)
+        ram = Cylinder(A, B, bore=0.08, rod=0.045)
+        load = Force(B, (0.0, force * draw.uniform(5e3, 20e3)))
+        line = OilLine(f"ram.{works}_side", Pump(200e5, **losses))
+
+    machine, lifting = Turning(), "extending" if works == "piston" else "retracting"
+    for asked, unit in ((pressure("ram"), "bar rad"), (pressure("line"), "bar rad"), (thrust("ram"), "kN rad"), (drive_force(), "Nm"),
+                        (angle("O", "B"), "rad2"), (distance("A", "B"), "mm rad"), (reserve("ram"), "deg")):  # fmt: skip
+        (found,) = machine.answers([integral(asked)])
+        assert re.fullmatch(rf"[-\d.e]+ {unit}( {lifting})?", str(found)), str(found)
+    for asked in (pressure("ram"), pressure("line"), pressure("ram", side=works)):
+        (found,) = machine.answers([most(asked)])
+        assert found.direction == lifting and lifting in found.place and "at rest" not in found.place
 
 
 def test_a_way_there_and_back_leaves_no_work_and_a_work_is_the_height_gained():

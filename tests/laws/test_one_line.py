@@ -66,7 +66,7 @@ from linkage.quantities import label
 from linkage.reports.results import drive_columns
 from linkage.statics import pulling
 from linkage.statics.carried import LoadAt
-from linkage.units import bar, deg, g0, kN, litre
+from linkage.units import bar, deg, g0, kN, litre, minute
 from tests.for_all import for_all
 
 AREA = math.pi / 4 * 0.08**2
@@ -98,6 +98,7 @@ def spelled(seed):
     common = dict(ram=Cylinder("A", "B", bore=80 * mm, rod=45 * mm, count=draw.choice((1, 2)), works=draw.choice((side, side))))
     common |= dict(load=Force("G", (draw.uniform(-5, 5) * kN, (-20 if side == "piston" else 20) * kN)))
     common |= dict(rub=PinFriction("O", radius=30 * mm, coefficient=0.15)) if seed % 3 == 2 else {}
+    common |= dict(back_given=back)
     first = made("Number", line=LiftCircuit("ram", pressure=given, relief=1.1 * given, back_pressure=back, **losses), **common)
     lines = dict(line=OilLine(f"ram.{side}_side", "supply", "valve"), back=OilLine(f"ram.{other}_side", Tank(back)))
     return first, made("Tank", supply=Pump(given, **losses), valve=Relief(1.1 * given), **lines, **common)
@@ -114,6 +115,11 @@ def test_a_back_pressure_and_a_tank_give_the_same_forces(seed):
         found += [pin_forces(motion).drives["S"], np.ravel(machine.evaluate([drive_force()], S=0.1)[0])]
         found += [ram.thrust(motion), ram.pressure(motion, direction=way)]
         found += [line.rod_force(motion), line.reserve(motion), line.largest(motion), np.ravel(ram.bounds(motion, True))]
+        if way == "extending":  # against a stop the other side presses back
+            (stop,) = (str(each) for each in machine.verdicts() if "Against a stop" in str(each))
+            size, relief = ram.sized(machine.at(S=0.1)), line.relief_pressure(motion)
+            pushed = relief * size.push_area - structure.back_given * size.pull_area
+            assert f"{pushed / ram.count / kN:.4g} kN at {relief / bar:.4g} bar" in stop
         numbers.append(np.concatenate([*map(np.ravel, found), [each.value for each in machine.answers(asked)]]))
     assert_allclose(*numbers, rtol=1e-11)
 
@@ -176,22 +182,37 @@ def test_each_of_two_lines_has_its_own_pressure_whoever_says_that_both_sides_wor
             assert_allclose(structure.back.pressure(motion), np.maximum(-thrust, 0.0) / ANNULUS, rtol=1e-12)
 
 
-def test_a_line_knows_the_valve_over_which_it_goes_down():
-    structure = made(
-        supply=Pump(250 * bar, mechanical_efficiency=0.9), line=OilLine("ram.piston_side", "supply"),
-        back=OilLine("ram.rod_side", Tank(4 * bar)), valve=HoldingValve("line", pilot="back", setting=230 * bar, ratio=4),
-    )  # fmt: skip
-    motion = structure().at(S=np.array([0.03, 0.17]))
-    down, pilot = structure.valve.line_pressure(motion), structure.valve.pilot_pressure(motion)
-    assert_allclose(down + 4 * pilot, 230 * bar, rtol=1e-12)
-    assert_allclose(down * AREA - pilot * ANNULUS, 0.9 * structure.ram.thrust(motion), rtol=1e-12)
-    for found in (structure.line.pressure(motion, direction="retracting"), structure.ram.pressure(motion, direction="retracting"),
-                  motion[pressure("line", direction="retracting")]):  # fmt: skip
-        assert_allclose(found, down, rtol=1e-12)
+@for_all("seed", range(3), slow=range(3, 12))
+def test_both_sides_know_the_valve_over_which_they_go_down_at_every_door(seed):
+    draw = Random(seed)
+    setting, ratio, k_m = draw.uniform(190, 240) * bar, draw.uniform(2, 6), draw.choice((1.0, 0.9))
+    supply = Pump(250 * bar, flow=1e-3, mechanical_efficiency=k_m)
+    on = ("supply", Tank(draw.uniform(0, 4) * bar), Pump(200 * bar))[seed % 3]
+    lines = dict(line=OilLine("ram.piston_side", "supply"), back=OilLine("ram.rod_side", on))
+    valve = HoldingValve("line", pilot="back", setting=setting, ratio=ratio)
+    structure = made(supply=supply, load=Force("G", (0.0, -draw.uniform(8, 20) * kN)), **lines, valve=valve)
+    machine, poses = structure(), np.array([0.03, 0.17])
+    motion = machine.at(S=poses)
+    thrust = structure.ram.thrust(motion) * k_m  # p A - q a = T and p + ratio q = setting
+    pilot = (AREA * setting - thrust) / (AREA * ratio + ANNULUS)
+    down = setting - ratio * pilot
+    assert_allclose([structure.valve.line_pressure(motion), structure.valve.pilot_pressure(motion)], [down, pilot], rtol=1e-12)
+    back = machine.sweep(2, over=Over.path(S=[0.17, 0.03], time=[0.0, 2.0]))
+    for side, name, wanted in (("piston", "line", down), ("rod", "back", pilot)):
+        line, way = machine.plan.members[name], {"direction": "retracting"}
+        asked = [pressure("ram", side=side, **way), pressure(name, **way), pressure("ram", circuit=name, **way)]
+        found = [line.pressure(motion, **way), *(motion[each] for each in asked), *machine.evaluate(asked, S=poses)]
+        assert_allclose(found, np.tile(wanted, (len(found), 1)), rtol=1e-12)
+        timed = [line.pressure(back), *(back[each] for each in (pressure("ram", side=side), pressure(name)))]
+        assert_allclose(timed, np.tile(wanted[::-1], (3, 1)), rtol=1e-9)
+        answers = machine.answers([most(pressure("ram", side=side)), most(pressure(name))], over=Over(S=(0.03, 0.17)))
+        loaded = structure.ram.thrust(motion, case="heavy") * k_m
+        heavy = (AREA * setting - loaded) / (AREA * ratio + ANNULUS)
+        worst = max(*wanted, *(setting - ratio * heavy if side == "piston" else heavy))
+        assert_allclose([each.value for each in answers], worst, rtol=1e-9)
+        assert all(each.direction == "retracting" for each in answers)
+    assert_allclose(structure.ram.pressure(motion, direction="retracting"), np.maximum(down, pilot), rtol=1e-12)
     assert np.all(structure.line.pressure(motion, direction="extending") < down)
-    pumped = made(base=structure, back=OilLine("ram.rod_side", Pump(200 * bar)))
-    motion = pumped().at(S=np.array([0.03, 0.17]))
-    assert_allclose(pumped.back.pressure(motion, direction="retracting"), pilot, rtol=1e-12)
 
 
 def test_a_number_that_counts_for_nothing_on_a_line_is_refused_there():
@@ -662,3 +683,44 @@ def test_a_cylinder_past_its_dead_point_has_the_pressure_of_its_line(seed):
         filled, back = fills * first + small * second, 8 * bar * (empties * first + ring * second)
         assert_allclose(lifting, (needed / 0.88 + back) / (0.95 * filled), rtol=1e-9)
         assert_allclose(lowering, (needed * 0.88 + back) / filled, rtol=1e-9)
+
+
+@for_all("seed", (1,), slow=(0, *range(2, 6)))
+def test_a_pump_gives_joined_cylinders_the_oil_and_the_work_of_their_line(seed):
+    """Oil by differences of volumes, work by the pressure over these; on its way up aux passes its dead point and gives oil back."""
+    machine = type(flap(seed))(**{"supply.flow": 300 * litre / minute})
+    supply = machine.plan.members["supply"]
+    run = supply.run(machine, demands={"main": 0.06}, start={"phi": 5 * deg}, until=9.0)
+    fine = machine.at(phi=np.linspace(*run.strokes["phi"][[0, -1]], 401))
+    small, large = (np.pi / 4 * bore**2 for bore in (0.063, 0.1))
+    volume = large * fine.distance("M", "P") + small * fine.distance("N", "R")
+    assert np.ptp(np.sign(np.diff(fine.distance("N", "R")))) == 2.0
+    work = np.trapezoid(fine[pressure("main", direction="extending")], volume)
+    for cycle in (run.cycle, supply.check(run)):
+        assert_allclose([cycle.litres["line"], cycle.litres["supply"]], 1e3 * np.ptp(volume), rtol=1e-9)
+        assert_allclose([cycle.energy.pump, cycle.energy.useful], work, rtol=1e-6)
+        assert cycle.energy.braked == 0.0
+    back = supply.run(machine, demands={"main": -0.06}, start=run, until=18.0)
+    fine = machine.at(phi=np.linspace(*back.strokes["phi"][[-1, 0]], 401))
+    volume = large * fine.distance("M", "P") + small * fine.distance("N", "R")
+    freed = np.trapezoid(fine[pressure("main", direction="retracting")], volume)
+    assert_allclose(back.cycle.energy.braked, freed, rtol=1e-6)
+    assert back.cycle.litres["supply"] == 0.0
+
+
+@for_all("seed", range(1), slow=range(1, 6))
+def test_what_is_not_looked_at_shut_or_reached_is_told_by_name_and_number(seed):
+    draw = Random(seed)
+    given, opens, far = draw.uniform(150, 250) * bar, draw.uniform(60, 140) * bar, draw.uniform(2.0, 3.0)
+    members = dict(supply=Pump(given), line=OilLine("ram.piston_side", "supply", Relief(opens)), back=OilLine("ram.rod_side", Tank()))
+    ways = dict(near=Over(S=(0.0, 0.1), cases=["plain"]), never=Over(S=(0.0, 0.2), only=[distance("A", "B") >= far]))
+    told = [str(each) for each in made(**members, **ways, parked=LoadCase("parked", shut=["line", "back"]))().verdicts()]
+    assert told[0] == "ok   assembly: it is assembled over near: S = 0 to 100 mm."
+    assert any(each.startswith("Over never: S = 0 to 200 mm") and "no place is left to look at" in each for each in told)
+    says = f"The relief valve of line opens at {opens / bar:.4g} bar, below the pump's {given / bar:.4g} bar"
+    assert any(each.startswith(says) for each in told)
+    assert any("shut back:" in each for each in told)
+    told = [str(each) for each in made(**members, near=ways["near"])().verdicts()]
+    assert "The load case heavy occurs over no Over, so that nothing is judged in it." in told
+    with pytest.raises(DefinitionError, match="2 pumps are on one line; leave one, with the flow of both"):
+        made(line=OilLine("ram.piston_side", Pump(given), Pump(opens)))

@@ -492,7 +492,7 @@ class DesignSearch:
             problem = self.problem.sampled_apart(SAMPLES)
             with problem.count.without_limit():
                 for each in screened[:KEPT]:
-                    for unit in each.unit[[place for place in each.order[:KEPT] if each.begins[place]]]:
+                    for unit in each.unit[[place for place in each.order()[:KEPT] if each.begins[place]]]:
                         with suppress(LinkageError):
                             ended.append(Local(problem, each.combination, unit).judged(unit))
         return self.chosen(ended, searched=len(screened))
@@ -561,19 +561,18 @@ class DesignSearch:
             unit = np.concatenate([present[None], unit])
         if self.method != "local":
             unit = space.drawn(unit, self.problem.plan.title, self.seed)
-        seen = self.coarse.merits(combination, unit)
-        self.looked.append(EvaluatedDesigns("looked at", space, combination, unit, *seen, self.problem.sense))
+        self.looked.append(EvaluatedDesigns.looked_at(self.coarse, combination, unit))
         return self.looked[-1]
 
     def starts_in(self, screened: EvaluatedDesigns, combinations: int) -> list[FloatArray]:
         """Return where the local searches of a combination begin: the best designs that stand apart, that of today always."""
         many = 1 if self.method == "local" else max(self.many if combinations == 1 else self.many // 2, 1)
-        unit, apart = screened.unit, NEAR * np.sqrt(screened.unit.shape[1])
+        unit, order, apart = screened.unit, screened.order(), NEAR * np.sqrt(screened.unit.shape[1])
 
         def is_near(known: int, place: int) -> bool:
             return bool(np.linalg.norm(unit[place] - unit[known]) <= apart)
 
-        chosen = [unit[place] for place in without_repeats(screened.order[screened.begins[screened.order]], is_near, many)]
+        chosen = [unit[place] for place in without_repeats(order[screened.begins[order]], is_near, many)]
         present = unit[0]
         if screened.begins[0] and not any(np.array_equal(each, present) for each in chosen):
             chosen = [*chosen[: max(many - 1, 0)], present]

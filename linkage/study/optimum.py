@@ -7,7 +7,6 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
 from itertools import islice, product
 from math import prod
 from operator import itemgetter
@@ -228,7 +227,7 @@ class Optimum(Shown):
         problem, judged = self.problem, []
         units = problem.space.unit(rounded_values(self.machine, problem.space, self.unit, to, angle, MOST_ROUNDINGS))
         with problem.count.without_limit():
-            for place in best_first(problem, self.combination, units, MET)[1][:8] if problem.space.variables else [0]:
+            for place in EvaluatedDesigns.looked_at(problem, self.combination, units).order(MET)[:8] if problem.space.variables else [0]:
                 machine = problem.machine_of(units[place], self.combination)
                 value, missing = worth_of(problem, machine)
                 if np.isfinite(value):
@@ -513,7 +512,7 @@ def on_steps(problem: Problem, found: SearchEnd) -> tuple[Problem, SearchEnd]:
     elif is_small:
         every = np.array([*product(*map(range, search.counts))])
         units = every * np.array([each.step / each.span for each in search.stepped if each.step is not None])
-        _, order = best_first(problem, found.combination, units, NEAR_KEPT)
+        order = EvaluatedDesigns.looked_at(problem, found.combination, units).order(NEAR_KEPT)
         search.look([tuple(map(int, every[place])) for place in order[:JUDGED]])
     else:
         search.look([*search.about(), *search.promising()])
@@ -564,11 +563,11 @@ class StepSearch:
             column = variables.index(each)
             steps[:, place] = np.minimum((units[:, column] * count).astype(int), count - 1)
             units[:, column] = steps[:, place] * (each.step or 0.0) / each.span
-        value, order = best_first(self.problem, self.found.combination, units, NEAR_KEPT)
+        seen = EvaluatedDesigns.looked_at(self.problem, self.found.combination, units)
         free = [place for place, each in enumerate(variables) if each.step is None]
         found: dict[tuple[int, ...], FloatArray] = {}
-        for place in order:
-            if np.isfinite(value[place]):
+        for place in seen.order(NEAR_KEPT):
+            if np.isfinite(seen.value[place]):
                 found.setdefault(tuple(map(int, steps[place])), units[place, free])
             if len(found) == PROMISING:
                 break
@@ -618,14 +617,6 @@ class Rounded(HasSentence):
     def feasible(self) -> bool:
         """Whether it keeps every condition."""
         return self.missing <= MET
-
-
-def best_first(problem: Problem, combination: Sequence[int], units: FloatArray, near: float) -> tuple[FloatArray, Index]:
-    """Return the objectives (m,) of designs (m, n) at few poses, and their order, the best first; misses up to `near` are none."""
-    value, missing, _ = problem.merits(combination, units)
-    short = np.where(np.isfinite(missing), np.maximum(missing, 0.0), np.inf)
-    worth = np.where(np.isfinite(value), problem.sense * value, np.inf)
-    return value, np.lexsort((worth, np.where(short <= near, 0.0, short)))
 
 
 def rounded_values(machine: Mechanism, space: Space, unit: FloatArray, to: float, angle: float, most: int) -> FloatArray:
@@ -712,6 +703,11 @@ class EvaluatedDesigns:
     sense: float
 
     @classmethod
+    def looked_at(cls, problem: Problem, combination: tuple[int, ...], unit: FloatArray) -> EvaluatedDesigns:
+        """Return designs of a problem at its poses."""
+        return cls("looked at", problem.space, combination, unit, *problem.merits(combination, unit), problem.sense)
+
+    @classmethod
     def of_end(cls, problem: Problem, end: SearchEnd) -> EvaluatedDesigns:
         """Return the one design that a local search came to."""
         value, missing, reached = (np.array([float(each)]) for each in (end.value, end.missing, end.is_assembled))
@@ -722,22 +718,21 @@ class EvaluatedDesigns:
         """At which of them a local search may begin: they are reached, and the objective has a value."""
         return np.asarray((self.reached == 1.0) & np.isfinite(self.value))
 
-    @cached_property
-    def ranks(self) -> tuple[FloatArray, FloatArray]:
-        """What orders them, shapes (m,): their misses, zero where they keep all, then the objective, less where it is better."""
+    def ranks(self, near: float = 1e-9) -> tuple[FloatArray, FloatArray]:
+        """Return what orders them, (m,): their misses, none up to `near` of a condition, then the objective, less where it is better."""
         short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
-        return np.where(short <= 1e-9, 0.0, short), np.where(np.isfinite(self.value), self.sense * self.value, np.inf)
+        return np.where(short <= near, 0.0, short), np.where(np.isfinite(self.value), self.sense * self.value, np.inf)
 
-    @property
-    def order(self) -> Index:
-        """The designs, the best first."""
-        return np.lexsort(self.ranks[::-1])
+    def order(self, near: float = 1e-9) -> Index:
+        """Return the designs, the best first; misses up to `near` are none."""
+        return np.lexsort(self.ranks(near)[::-1])
 
     @property
     def best(self) -> tuple[float, float]:
         """The rank of the best one."""
-        short, worth = self.ranks
-        return float(short[self.order[0]]), float(worth[self.order[0]])
+        short, worth = self.ranks()
+        first = self.order()[0]
+        return float(short[first]), float(worth[first])
 
 
 def tried_names(space: Space) -> list[str]:

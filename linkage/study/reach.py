@@ -25,15 +25,31 @@ ROUNDS, PARTS, NARROWED, AT_END = 4, 8, 6, 1e-5
 what counts as an end."""
 
 
+Spans: TypeAlias = list[tuple[float, float]]
+
+
+def simpson(panel: tuple[float, float, float], known: dict[float, Spans]) -> tuple[float, float]:
+    """Return the area of a panel of three lines, and about how wrong it may be [m2]."""
+    low, mid, high = (sum(right - left for left, right in known[height]) for height in panel)
+    tall = panel[2] - panel[0]
+    return tall * (low + 4.0 * mid + high) / 6.0, tall * abs(low - 2.0 * mid + high) / 6.0
+
+
 class Reach:
     """The reach of a point: heights of level lines, ascending, and the parts of each that are reached, (line, left, right) [m]."""
 
     def __init__(self, turns: Sequence[Turn], rest: FloatArray, poses: Poses) -> None:
-        lines = LevelLines(turns, rest, poses)
-        heights: FloatArray = np.linspace(lines.tall[0], lines.tall[1], 2 * PANELS + 1)
-        known = dict(zip(heights.tolist(), lines.spans(heights), strict=True))
+        self.turns, self.rest, self.poses = turns, rest, poses
+        self.many = turns[0][0]
+        seen = self.many.looked_at().values[:2]
+        seen = seen[:, np.isfinite(seen).all(axis=0)]
+        (left, low), (right, high) = seen.min(axis=1), seen.max(axis=1)
+        aside, above = 0.02 * max(right - left, 1e-6), 0.02 * max(high - low, 1e-6)
+        self.across = np.linspace(left - aside, right + aside, ACROSS)
+        self.is_single, area = not self.many.spare, 0.0
+        heights: FloatArray = np.linspace(low - above, high + above, 2 * PANELS + 1)
+        known = dict(zip(heights.tolist(), self.reached(heights), strict=True))
         panels = [(heights[k], heights[k + 1], heights[k + 2]) for k in range(0, 2 * PANELS, 2)]
-        self.is_single, area = lines.is_single, 0.0
         for level in range(LEVELS + 1):
             size = max(area + sum(simpson(panel, known)[0] for panel in panels), 1e-12)
             rough = [panel for panel in panels if level < LEVELS and simpson(panel, known)[1] > CLOSE * size]
@@ -41,7 +57,7 @@ class Reach:
             halves = [half for low, mid, high in rough for half in ((low, 0.5 * (low + mid), mid), (mid, 0.5 * (mid + high), high))]
             new = np.array([mid for _, mid, _ in halves])
             if len(new):
-                known |= zip(new.tolist(), lines.spans(new), strict=True)
+                known |= zip(new.tolist(), self.reached(new), strict=True)
             panels = halves
         self.heights, self.area = frozen(sorted(known)), float(area)
         self.spans = tuple((k, left, right) for k, height in enumerate(sorted(known)) for left, right in known[height])
@@ -57,32 +73,7 @@ class Reach:
         found = [[(across, self.heights[line]) for across, line in pair] for pair in pieces]
         return frozen(found).reshape(-1, 2, 2)
 
-
-Spans: TypeAlias = list[tuple[float, float]]
-
-
-def simpson(panel: tuple[float, float, float], known: dict[float, Spans]) -> tuple[float, float]:
-    """Return the area of a panel of three lines, and about how wrong it may be [m2]."""
-    low, mid, high = (sum(right - left for left, right in known[height]) for height in panel)
-    tall = panel[2] - panel[0]
-    return tall * (low + 4.0 * mid + high) / 6.0, tall * abs(low - 2.0 * mid + high) / 6.0
-
-
-class LevelLines:
-    """Level lines of a point, and the parts of them that it reaches."""
-
-    def __init__(self, turns: Sequence[Turn], rest: FloatArray, poses: Poses) -> None:
-        self.turns, self.rest, self.poses = turns, rest, poses
-        self.many = turns[0][0]
-        seen = self.many.looked_at().values[:2]
-        seen = seen[:, np.isfinite(seen).all(axis=0)]
-        (left, low), (right, high) = seen.min(axis=1), seen.max(axis=1)
-        wide, tall = max(right - left, 1e-6), max(high - low, 1e-6)
-        self.across = np.linspace(left - 0.02 * wide, right + 0.02 * wide, ACROSS)
-        self.tall = low - 0.02 * tall, high + 0.02 * tall
-        self.is_single = not self.many.spare
-
-    def spans(self, heights: FloatArray) -> list[Spans]:
+    def reached(self, heights: FloatArray) -> list[Spans]:
         """Return the parts of lines at some heights that are reached (left, right) [m]."""
         up, count = np.sort(heights), self.across.size
         inside = np.zeros(count * up.size, bool)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from functools import cached_property, partial
 from itertools import combinations, product
 from typing import Any, TypeAlias
@@ -276,43 +275,40 @@ GRID, ZOOMS, CLOSER = np.linspace(-1.0, 1.0, 9), 5, 0.3
 """Where the parabolas are looked at, in shares of the room, how often, and how much closer each time."""
 
 
-@immutable
+MovedPoses: TypeAlias = Callable[[PlacePoses, Index, FloatArray], tuple[FloatArray, FloatArray]]
+"""What gives poses with their spare strokes at some values, and the load of each limiter there."""
+
+
 class Climb:
-    """Poses whose spare strokes go to where most is carried; the first `solved` strokes of each are solved for.
+    """Poses (n) whose spare strokes go to where most is carried; the first `solved` strokes of each are solved for.
 
     `moved` gives poses (m, n, k) with the spare strokes at some values (m, n, s), and the load of each limiter there (limiters, m, n), NaN
-    without one. `order` (n, k) is the order of the strokes of each. `base` are the best poses found and `load` theirs [N]. `centre` (n, k)
-    is where each is now, maybe a little past an end, and `worth` what that counts. `room` (n,) is how far around it the search looks, in
-    shares of the spare strokes' ranges.
+    without one. `order` (n, k) is the order of the strokes of each. `unit` (n, k) are the best poses found, in this order, and `load`
+    theirs [N]. `centre` (n, k) is where each is now, maybe a little past an end, and `worth` what that counts. `room` (n,) is how far
+    around it the search looks, in shares of the spare strokes' ranges.
     """
 
-    moved: Callable[[PlacePoses, Index, FloatArray], tuple[FloatArray, FloatArray]]
-    solved: int
-    base: PlacePoses
-    order: Index
-    load: FloatArray
-    centre: FloatArray
-    worth: FloatArray
-    room: FloatArray
+    def __init__(self, moved: MovedPoses, solved: int, start: PlacePoses, order: Index, load: FloatArray, room: float) -> None:
+        self.moved, self.solved, self.place, self.order = moved, solved, start.place, order
+        self.unit, self.centre, self.load, self.worth = start.unit.copy(), start.unit.copy(), load.copy(), load.copy()
+        self.room = np.full(len(load), room)
 
     @property
     def unfinished(self) -> Index:
         """The poses at which something is left to look for."""
         return np.flatnonzero((self.room > LEAST) & (self.load > 0.0) & np.isfinite(self.load))
 
-    def step(self) -> Climb:
-        """Return them after one look around."""
-        rows, k = self.unfinished, self.solved
-        parts = {name: getattr(self, name)[rows] for name in ("order", "load", "centre", "worth", "room")}
-        here = replace(self, base=self.base.select(rows), **parts)
-        s = here.centre.shape[1] - k
+    def step(self, rows: Index) -> None:
+        """Look around some of them once."""
+        place, order, now, before, own = (each[rows] for each in (self.place, self.order, self.centre, self.worth, self.room))
+        k, s = self.solved, self.centre.shape[1] - self.solved
         around = np.array([*product((-1.0, 0.0, 1.0), repeat=s)])
-        room = here.room[:, None]
-        middle = np.clip(here.centre[:, k:], np.minimum(room, 0.5), np.maximum(1.0 - room, 0.5))
-        unit, of = self.moved(PlacePoses(here.base.place, here.centre), here.order, middle[None] + around[:, None] * room)
-        best = here.better(unit, of)
+        room = own[:, None]
+        middle = np.clip(now[:, k:], np.minimum(room, 0.5), np.maximum(1.0 - room, 0.5))
+        unit, of = self.moved(PlacePoses(place, now), order, middle[None] + around[:, None] * room)
+        load = self.bettered(rows, unit, of)
         with np.errstate(invalid="ignore"):  # as shares, 0 for none and 1 without end, a half of the best: smooth everywhere
-            shares = np.where(np.isinf(of), 1.0, of / (of + best.load))
+            shares = np.where(np.isinf(of), 1.0, of / (of + load))
         with_ends = np.concatenate([shares, 0.25 * COST * ends_of(unit[:, :, :k]).transpose(2, 0, 1)])
         at, share = best_of_parabolas(with_ends.transpose(0, 2, 1), len(of), s)
         each = parabolas(at)
@@ -320,35 +316,29 @@ class Climb:
         for other in each.swapaxes(0, 1)[1:]:
             bases = (bases[:, :, None] * other[:, None, :]).reshape(len(at), -1)
         guess = np.einsum("na,ank->nk", bases, unit)
-        promised = np.where(share < 1.0, share / (1.0 - np.minimum(share, 0.999)), np.inf) * best.load
-        begin = PlacePoses(here.base.place, np.where(np.isfinite(guess), guess, here.centre))
-        unit, of = self.moved(begin, here.order, (middle + at * room)[None])
-        best = best.better(unit, of)
+        promised = np.where(share < 1.0, share / (1.0 - np.minimum(share, 0.999)), np.inf) * load
+        begin = PlacePoses(place, np.where(np.isfinite(guess), guess, now))
+        unit, of = self.moved(begin, order, (middle + at * room)[None])
+        load = self.bettered(rows, unit, of)
         past = np.minimum(ends_of(unit[:, :, :k]).min(axis=2), 0.0)  # what a pose counts: the least load, less what that costs
-        worth = np.nan_to_num((np.min(of, axis=0) + COST * best.load * past)[0], nan=-np.inf)
-        kept = np.isfinite(share) & (worth - here.worth >= KEPT * np.maximum(promised - here.worth, 0.0))
-        gone = np.abs(unit[0, :, k:] - here.centre[:, k:]).max(axis=1) / here.room
+        worth = np.nan_to_num((np.min(of, axis=0) + COST * load * past)[0], nan=-np.inf)
+        kept = np.isfinite(share) & (worth - before >= KEPT * np.maximum(promised - before, 0.0))
+        gone = np.abs(unit[0, :, k:] - now[:, k:]).max(axis=1) / own
         left = np.where(kept, np.clip(2.0 * gone, LESS, MORE), LITTLE)
-        centre, worth = np.where(kept[:, None], unit[0], here.centre), np.where(kept, worth, here.worth)
-        there = best.load > worth
-        centre, worth = np.where(there[:, None], best.base.unit, centre), np.where(there, best.load, worth)
-        done = np.isfinite(share) & (here.room < CLOSE) & (promised - best.load <= SAME * best.load)
-        some = {"load": best.load, "centre": centre, "worth": worth, "room": np.where(done, 0.0, np.minimum(here.room * left, ROOM))}
-        every = {name: getattr(self, name).copy() for name in some}
-        unit = self.base.unit.copy()
-        unit[rows] = best.base.unit
-        for name, values in some.items():
-            every[name][rows] = values
-        return replace(self, base=PlacePoses(self.base.place, unit), **every)
+        centre, worth = np.where(kept[:, None], unit[0], now), np.where(kept, worth, before)
+        there = load > worth
+        self.centre[rows], self.worth[rows] = np.where(there[:, None], self.unit[rows], centre), np.where(there, load, worth)
+        done = np.isfinite(share) & (own < CLOSE) & (promised - load <= SAME * load)
+        self.room[rows] = np.where(done, 0.0, np.minimum(own * left, ROOM))
 
-    def better(self, unit: FloatArray, of: FloatArray) -> Climb:
-        """Return them with those of some poses (m, n, k) that carry more inside all ends."""
+    def bettered(self, rows: Index, unit: FloatArray, of: FloatArray) -> FloatArray:
+        """Take those of some poses (m, n, k) that carry more inside all ends; return what is carried then (n,) [N]."""
         inside = ends_of(unit).min(axis=2) >= -EDGE
         load = np.where(inside, np.nan_to_num(np.min(of, axis=0), nan=-1.0, posinf=np.inf), -1.0)
         top, each = np.argmax(load, axis=0), np.arange(load.shape[1])
-        more = load[top, each] > self.load
-        found = np.where(more[:, None], np.clip(unit[top, each], 0.0, 1.0), self.base.unit)
-        return replace(self, base=PlacePoses(self.base.place, found), load=np.where(more, load[top, each], self.load))
+        more = load[top, each] > self.load[rows]
+        self.unit[rows[more]], self.load[rows[more]] = np.clip(unit[top, each], 0.0, 1.0)[more], load[top, each][more]
+        return self.load[rows]
 
 
 def parabolas(x: FloatArray) -> FloatArray:
@@ -640,13 +630,13 @@ class FieldSearch:
         usual = size[0] > USUAL[self.many.spare] * size.max(axis=0)  # the first turn's, but where its others are near a dead point
         order = np.array([each for _, each, _ in self.turns])[np.where(usual, 0, np.argmax(size, axis=0))]
         start = PlacePoses(base.place, np.take_along_axis(base.unit, order, axis=1))
-        climb = Climb(self.moved, self.many.solved, start, order, load, start.unit, load, np.full(len(load), room))
+        climb = Climb(self.moved, self.many.solved, start, order, load, room)
         for _ in range(looks):
-            if not climb.unfinished.size:
-                break
-            climb = climb.step()
+            rows = climb.unfinished
+            if rows.size:
+                climb.step(rows)
         unit = np.empty_like(base.unit)
-        np.put_along_axis(unit, order, climb.base.unit, axis=1)
+        np.put_along_axis(unit, order, climb.unit, axis=1)
         return PlacePoses(base.place, unit), climb.load
 
     def apart(self, found: LoadsFound, count: int) -> Index:

@@ -78,6 +78,6 @@ def values_at(problem: Problem, units: FloatArray, combination: Sequence[int], m
     look = problem.evaluated(problem.dimensions_at(units, combination))
     with np.errstate(all="ignore"):
         spare = [each.margin.from_leaves(look.numbers.__getitem__) for each in problem.constraints]
-    kept = np.all([look.is_assembled, *(np.broadcast_to(each >= -MET, len(units)) for each in spare)], axis=0)
+    kept = np.all(np.broadcast_arrays(look.is_assembled, *(each >= -MET for each in spare)), axis=0)
     values = np.where(kept, [look.values_of(each) for each in problem.objectives], np.nan)
     return (values[:many].max(axis=0) if problem.sense > 0.0 else values[:many].min(axis=0)), values[many:]

@@ -280,9 +280,6 @@ class WorstOf(Measure):
     def from_leaves(self, value: Callable[[Leaf], Any]) -> Any:
         return reduce(np.fmin if self.each[0].sense < 0.0 else np.fmax, map(value, self.each))
 
-    def __str__(self) -> str:
-        return str(self.each[0])
-
 
 def situations(judge: Judge, cases: Sequence[str], leaves: Sequence[Leaf]) -> list[Acting]:
     """Return the situations in which a judge looks at requests, each once, in the load cases that occur: as `machine.answers` counts."""
@@ -342,10 +339,9 @@ class MonteCarloRun:
         found: dict[Hashable, list[FloatArray]] = {key: [] for key in quantities}
         if bound:
             width = min(max(1, MEMORY // (8 * len(bound) * self.count)), self.poses.pose_count)
-            store = np.empty((len(bound), width, self.count))
             for first in range(0, self.poses.pose_count, width):
                 part = slice(first, min(first + width, self.poses.pose_count))
-                self._take(bound, self._values_traced([quantities[key] for key in bound], part, store), first, found)
+                self._take(bound, self._values_traced([quantities[key] for key in bound], part), first, found)
         for key, quantity in quantities.items():
             if key not in bound:
                 parts = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.pose_count)]
@@ -378,9 +374,9 @@ class MonteCarloRun:
         found = number_bound(self.poses.base.plan, quantity)
         return id(quantity) if found is None else found.key
 
-    def _values_traced(self, traced: Sequence[Measured | Worst], part: slice, store: FloatArray) -> FloatArray:
-        """Return quantities at some of the poses, shape (quantities, poses, designs), in the array that is there for them."""
-        place = store[:, : part.stop - part.start]
+    def _values_traced(self, traced: Sequence[Measured | Worst], part: slice) -> FloatArray:
+        """Return quantities at some of the poses, shape (quantities, poses, designs)."""
+        place = np.empty((len(traced), part.stop - part.start, self.count))
 
         def fill(block: slice) -> None:
             with np.errstate(all="ignore"):

@@ -181,18 +181,13 @@ def point_regions(machine: Mechanism, given: object, circles: Mapping[str, float
 
 def point_region(machine: Mechanism, point: str, region: Region, variables: Sequence[Varied]) -> PointRegion:
     """Return the region of a point; DefinitionError where it does not vary and stands outside."""
-    spellings = machine.plan.table.spellings
-    places: list[int | None] = [None, None]
-    signs, fixed = [1.0, 1.0], [0.0, 0.0]
+    spellings, places = machine.plan.table.spellings, {each.owner: place for place, each in enumerate(variables)}
     if f"{point}.x" not in spellings or f"{point}.y" not in spellings:  # a point that moves, or that follows others
         return PointRegion(point, region, (None, None), (1.0, 1.0), (0.0, 0.0))
-    for column, axis in enumerate("xy"):
-        owner, sign = spellings[f"{point}.{axis}"]
-        fixed[column] = sign * float(machine.dimensions[owner])
-        for place, each in enumerate(variables):
-            if each.owner == owner:
-                places[column], signs[column] = place, float(sign) * each.sign
-    return PointRegion(point, region, (places[0], places[1]), (signs[0], signs[1]), (fixed[0], fixed[1]))
+    (x, way), (y, other) = (spellings[f"{point}.{axis}"] for axis in "xy")
+    signs = [sign * variables[places[owner]].sign if owner in places else 1.0 for owner, sign in ((x, way), (y, other))]
+    fixed = way * float(machine.dimensions[x]), other * float(machine.dimensions[y])
+    return PointRegion(point, region, (places.get(x), places.get(y)), (signs[0], signs[1]), fixed)
 
 
 def places_inside(title: str, each: PointRegion, variables: Sequence[Varied], count: int, seed: int) -> FloatArray:

@@ -300,7 +300,8 @@ class Climb:
 
     def step(self, rows: Index) -> None:
         """Look around some of them once."""
-        place, order, now, before, own = (each[rows] for each in (self.place, self.order, self.centre, self.worth, self.room))
+        place, order = self.place[rows], self.order[rows]
+        now, before, own = self.centre[rows], self.worth[rows], self.room[rows]
         k, s = self.solved, self.centre.shape[1] - self.solved
         around = np.array([*product((-1.0, 0.0, 1.0), repeat=s)])
         room = own[:, None]

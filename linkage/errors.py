@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
-from traceback import extract_tb
+from traceback import walk_tb
 from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar, cast
 
 if TYPE_CHECKING:
@@ -158,9 +158,19 @@ def errors_of(what: str) -> Iterator[None]:
     except (LinkageError, MemoryError):
         raise
     except Exception as error:
-        last = extract_tb(error.__traceback__)[-1]
-        where = f"{last.filename}, line {last.lineno}"
-        raise DefinitionError(f"{what} raises {type(error).__name__}: {error} ({where}); mend it there.") from error
+        where, hint = culprit(error)
+        raise DefinitionError(f"{what} raises {type(error).__name__}: {error} ({where}); mend it there.{hint}") from error
+
+
+def culprit(error: BaseException) -> tuple[str, str]:
+    """Return where an error comes from, and " Did you mean ...?" with the nearest name where one is misspelt there, else ""."""
+    frame, line = [each for each in walk_tb(error.__traceback__) if each[0].f_code.co_name != "__getattr__"][-1]
+    names: list[str] = []
+    if isinstance(error, NameError):
+        names = [*frame.f_locals, *frame.f_globals, *frame.f_builtins]
+    elif isinstance(error, AttributeError):
+        names = [each for each in dir(error.obj) if not each.startswith("_")]
+    return f"{frame.f_code.co_filename}, line {line}", did_you_mean(getattr(error, "name", None), names)
 
 
 class FileError(LinkageError):
@@ -258,6 +268,9 @@ def did_you_mean(name: object, names: Sequence[str]) -> str:
     other = [own for own, words in FIELD_WORDS.items() if word.lower() in words.split()]
     near = [each for own in other for each in names if each.replace(" ", "_") in (own, f"{whose}.{own}")]
     near = near or [each for own in other for each in names if each.rpartition(".")[2] == own][:3]
+    if not near and " " not in name:  # a heading without its member, `pressure` for `pressure lift`
+        heads = get_close_matches(name, {each.partition(" ")[0] for each in names if " " in each}, n=1, cutoff=0.8)
+        near = [each for each in names if each.partition(" ")[0] in heads][:3]
     if not near:  # of a member that is there, one of its own
         own = {each: each.removeprefix(f"{whose}.") for each in names if whose and each.startswith(f"{whose}.")}
         close = get_close_matches(word if own else name, [*own.values()] or names, n=1, cutoff=0.5)

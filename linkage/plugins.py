@@ -6,14 +6,13 @@ No part of a package is loaded before it is asked for by its name; one that cann
 from __future__ import annotations
 
 import sys
-import traceback
 from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from .errors import DefinitionError, LinkageError
+from .errors import DefinitionError, LinkageError, culprit
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -50,15 +49,14 @@ def guarded(load: Callable[[], T], what: str) -> T:
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a script that leaves by sys.exit is one as well
-        last = traceback.extract_tb(error.__traceback__)[-1]
-        where = "" if last.filename.startswith("<") else f" ({last.filename}, line {last.lineno})"
+        where, hint = culprit(error)
         match error:
             case SyntaxError():
                 why = f"{error.filename}, line {error.lineno}: {error.msg}."
             case LinkageError():
                 why = str(error)
             case _:
-                why = f"{type(error).__name__}: {error}{where}."
+                why = f"{type(error).__name__}: {error}{'' if where.startswith('<') else f' ({where})'}.{hint}"
         raise DefinitionError(f"{what} cannot be loaded: {why}") from error
 
 

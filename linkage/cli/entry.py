@@ -149,12 +149,14 @@ def execute(arguments: list[str]) -> int:
 
 
 COMMON = ("--units", "--language")
+PAIRED = ("--cylinder", "--drive")
 
 
 def rearranged(arguments: list[str]) -> list[str]:
     """Return arguments with those of every command, where they stand first, behind the command.
 
-    A value that begins with a minus sign is joined to its option, `--y -1:2` as `--y=-1:2`: it is no option.
+    A value that begins with a minus sign is joined to its option, `--y -1:2` as `--y=-1:2`: it is no option. Two pins in one text,
+    `--cylinder "A B=300mm"`, are two.
     """
     first: list[str] = []
     rest = arguments
@@ -165,6 +167,8 @@ def rearranged(arguments: list[str]) -> list[str]:
     for each in [*rest[:1], *first, *rest[1:]] if rest and not rest[0].startswith("-") else arguments:
         if found and re.fullmatch(r"--\w[\w-]*", found[-1]) and re.match(r"-[\d.]", each):
             found[-1] += f"={each}"
+        elif found and found[-1] in PAIRED and len(each.split()) == 2 and "=" in each:
+            found += each.split()
         else:
             found.append(each)
     return found

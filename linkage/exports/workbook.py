@@ -47,6 +47,10 @@ ROW_MARK = "#ROW#"
 """What stands in a formula for the number of its row."""
 FITS = 1e-9
 """m; pins found together miss their links by less."""
+CHANGED = "Dimensions!$G$4"
+"""The cell that says whether any input differs from that of the exported design."""
+GIVEN = "given, for the inputs as exported: export the changed design again"
+"""What stands over numbers that no formula gives once an input is changed."""
 
 
 def workbook(calculation: Calculation, name: str) -> bytes:
@@ -84,6 +88,7 @@ class Sheets:
         self.input = book.add_format(typed)
         self.plain = book.add_format({"num_format": "General", "font_color": ink})
         self.warning = book.add_format({"bold": True, "font_color": "#C0392B"})
+        self.outdated = book.add_format({"font_strikeout": True, "font_color": "#C0392B"})
         self._formats: dict[tuple[str, bool], Format] = {}
 
     def write_sheets(self) -> None:
@@ -121,7 +126,7 @@ class Sheets:
     def _dimensions(self, sheet: Worksheet) -> None:
         """Write the design variables: the value that is typed in, in its unit, and beside it in SI, by the name that formulas use."""
         design, names = self.design, self.defined_names
-        for first, last, width in ((0, 0, 30), (1, 3, 15), (4, 4, 30), (5, 5, 70)):
+        for first, last, width in ((0, 0, 30), (1, 3, 15), (4, 4, 30), (5, 5, 70), (6, 6, 30)):
             sheet.set_column(first, last, width)
         sheet.write_string(0, 0, design.plan.heading, self.title)
         about = cleandoc(type(design).__doc__ or "").splitlines()
@@ -129,7 +134,7 @@ class Sheets:
         sheet.write_string(2, 0, "Type over a number on yellow; all sheets follow. SI and radians in the calculation.", self.muted)
         sheet.write_string(3, 0, self._situation, self.muted)
         row = 4
-        sheet.write_row(row, 0, ("Dimension", "Value", "Unit", "SI value", "Name in formulas", "Note"), self.head)
+        sheet.write_row(row, 0, ("Dimension", "Value", "Unit", "SI value", "Name in formulas", "Note", "Changed"), self.head)
         owner, titles = None, self.calculation.equations.part_titles
         owners = list(dict.fromkeys(["", *map(self.calculation.owner, design.dimensions)]))
         for name in sorted(design.dimensions, key=lambda each: owners.index(self.calculation.owner(each))):
@@ -142,12 +147,16 @@ class Sheets:
             entry = design.plan.table.entries[name]
             unit = dimension_unit(design, name)
             sheet.write_string(row, 0, name, self.text)
-            sheet.write_number(row, 1, tidy(value / factor(unit)), self.input)
+            typed = tidy(value / factor(unit))
+            sheet.write_number(row, 1, typed, self.input)
             sheet.write_string(row, 2, unit, self.muted)
             sheet.write_formula(row, 3, f"=B{row + 1}{to_si(unit)}", self.plain, float(value))
+            sheet.write_formula(row, 6, f'=IF(B{row + 1}={typed!r},"","as exported {typed:.15g}")', self.warning, "")
             sheet.write_string(row, 4, names[name], self.muted)
             sheet.write_string(row, 5, self._note(name, entry.where), self.muted)
             self.book.define_name(names[name], f"=Dimensions!$D${row + 1}")
+        changed = f"SUMPRODUCT(LEN(G6:G{row + 1}))+SUMPRODUCT(LEN(Strokes!H2:H{max(len(self.strokes), 1) + 1}))"
+        sheet.write_formula(3, 6, f'=IF({changed}>0,"changed inputs","")', self.warning, "")
         sheet.freeze_panes(5, 1)
         self._agreement(sheet, row + 2)
         for place, text in enumerate(self._remarks()):
@@ -205,14 +214,18 @@ class Sheets:
     def _strokes(self, sheet: Worksheet) -> None:
         """Write the ends of the stroke that runs and the others' values, then all strokes at every pose."""
         strokes, plan, run = self.strokes, self.design.plan, self.calculation.run
-        sheet.set_column(0, 6, 15)
-        sheet.write_row(0, 0, ("Stroke", "From", "To", "Unit", "From, SI", "To, SI", "Note"), self.head)
+        sheet.set_column(0, 7, 15)
+        sheet.write_row(0, 0, ("Stroke", "From", "To", "Unit", "From, SI", "To, SI", "Note", "Changed"), self.head)
         for row, name in enumerate(strokes, 1):
             unit, runs = stroke_display_unit(plan, name, "mm"), name in run.ways
             sheet.write_string(row, 0, name, self.text)
             ends = {"from": run.ways[name][0], "to": run.ways[name][-1]} if runs else {"from": run.held[name]}
+            typed = [tidy(value / factor(unit)) for value in ends.values()]
+            same = ",".join(f"{letter}{row + 1}={value!r}" for letter, value in zip("BC", typed, strict=False))
+            told = " to ".join(f"{value:.15g}" for value in typed)
+            sheet.write_formula(row, 7, f'=IF(AND({same}),"","as exported {told}")', self.warning, "")
             for column, (end, value) in enumerate(ends.items()):
-                sheet.write_number(row, 1 + column, tidy(value / factor(unit)), self.input)
+                sheet.write_number(row, 1 + column, typed[column], self.input)
                 sheet.write_formula(row, 4 + column, f"={'BC'[column]}{row + 1}{to_si(unit)}", self.plain, value)
                 self.book.define_name(self.defined_names[name, end], f"=Strokes!${'EF'[column]}${row + 1}")
             sheet.write_string(row, 3, unit, self.muted)
@@ -294,8 +307,17 @@ class Sheets:
 
     def _heading(self, sheet: Worksheet, column: int, texts: Sequence[str], dead: bool = False) -> None:
         for row, text in enumerate(texts):
-            upper, lower = (self.dead_head, self.dead_wrapped) if dead else (self.head, self.wrapped)
-            sheet.write_string(self.top + row, column, text, lower if row == 3 else upper)
+            if row == 3 and dead:
+                self._given(sheet, self.top + row, column, text)
+            else:
+                sheet.write_string(self.top + row, column, text, self.wrapped if row == 3 else self.dead_head if dead else self.head)
+
+    def _given(self, sheet: Worksheet, row: int, column: int, text: str) -> None:
+        """Write a heading over numbers that follow no input: once one is changed it says so, and they are struck out."""
+        plain = shorten(text.replace('"', "'"), 250, placeholder=" …")  # a text in a formula has 255 letters at most
+        sheet.write_formula(row, column, f'=IF({CHANGED}="","{plain}","{GIVEN}")', self.dead_wrapped, plain)
+        rule = {"type": "formula", "criteria": f'={CHANGED}<>""', "format": self.outdated}
+        sheet.conditional_format(row + 1, column, row + self.count, column, rule)
 
     def _number(self, sheet: Worksheet, row: int, column: int, text: str | None, value: float, look: Format) -> None:
         if text is not None:
@@ -327,7 +349,9 @@ class Sheets:
             kept = ", ".join(f"{name} = {self.design.dimensions[name]:g}" for name in result.unchanged)
             says = "a number, not a formula" if dead else f"while {kept}" if kept else ""
             for row, text in enumerate((result.column.name, result.column.unit, says)):
-                sheet.write_string(row, column, text, (self.dead_wrapped if dead else self.wrapped) if row == 2 else self.head)
+                sheet.write_string(row, column, text, self.wrapped if row == 2 else self.head)
+            if dead:
+                self._given(sheet, 2, column, says)
             shown = np.broadcast_to(result.column.shown, self.calculation.motion.shape)
             look = self._look(f"0.{'0' * result.column.digits}" if result.column.digits else "0", dead)
             template = None if result.expr is None else self._cell_formula(result.expr, "Calculation!")

@@ -23,7 +23,7 @@ from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
 from ..plan.members import FRAME
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
-from ..quantities import is_number, joined_names
+from ..quantities import is_number, joined_names, needs
 from ..reports import LiveColumn, column_requests, friction_of_columns, is_changing, request_in_case, results
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_sign, unit_system, units_shown
@@ -118,7 +118,7 @@ class PageRequests:
         self._ask()
 
     def _column(self, name: str | None) -> str:
-        """Return the column that is shown first: the one named, the one that the machine is about, the last that changes."""
+        """Return the column shown first: the one named, the one the machine is about, the last of the cylinder whose verdict is worst."""
         if name is None and self.featured.column in self.columns:
             return self.featured.column
         if name is not None:
@@ -127,7 +127,13 @@ class PageRequests:
         strokes = self.machine.strokes
         moving = [each for each, (column, _, why) in self.columns.items() if each not in strokes and is_changing(column.drawn)]
         alive = [each for each in moving if not self.columns[each][2]]
-        return (alive or moving or list(self.columns))[-1]
+        shown = alive or moving or list(self.columns)
+        _, told = verdicts_told("en", self.machine, self.judge, self.along)
+        facts = [(each.ok is False, fact_data(self, each)) for each in told or () if each.member]
+        ranked = sorted(facts, key=lambda fact: (fact[0], *fact[1][3:]), reverse=True)  # as the list on the page has them
+        members = ({member, *needs(self.plan.members[member])} for _, (member, *_) in ranked)
+        own = ([each for each in shown if among & {*each.split()}] for among in members)
+        return next(filter(None, own), shown)[-1]
 
     def _limits(self, limit: Any) -> tuple[Limits, Limits]:
         """Return the limits by column: those that are judged, and all that are drawn."""

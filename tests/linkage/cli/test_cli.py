@@ -22,6 +22,7 @@ from linkage.cli import command as progress
 from linkage.cli import entry as commands
 from linkage.cli.machines import find
 from linkage.cli.settings import judged_over
+from linkage.errors import did_you_mean
 from linkage.shown import text_columns
 from tests.for_all import first_daily
 from tests.members import unpacked
@@ -435,6 +436,9 @@ def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
         ("table two.py", "say two.py:Class, one of One, Two"),
         ("table broken.py", "broken.py, line 2: "),
         ("table failing.py", "ZeroDivisionError: division by zero"),
+        ("table slip.py", "NameError: name 'Grond' is not defined (slip.py, line 3). Did you mean Ground?"),
+        ("table other.py", "module 'linkage' has no attribute 'Mechanisms' (other.py, line 2). Did you mean Mechanism?"),
+        ("table inner.py", "Inner.columns(motion) raises NameError: name 'motoin' is not defined (inner.py, line 4); mend it there. Did"),
         ("table wrong.py", "wrong.py cannot be loaded: Name 'A' is unknown in Wrong.B. Known: O. (wrong.py, line 4)"),
     ],
 )
@@ -444,12 +448,28 @@ def test_mistake_is_one_line_and_exit_code_2(said, own, arguments, words):
     (own / "bare.py").write_text("from linkage import *\nclass Bare(Mechanism): pass\n")
     (own / "broken.py").write_text("from linkage import *\nclass Lever(\n")
     (own / "failing.py").write_text("1 / 0\n")
+    (own / "slip.py").write_text("from linkage import *\nclass Slip(Mechanism):\n    O = Grond(0, 0)\n")
+    (own / "other.py").write_text("import linkage\nclass Other(linkage.Mechanisms): pass\n")
+    inner = "from lever import *\nclass Inner(Lever):\n    def columns(self, motion):\n        return motoin\n"
+    (own / "inner.py").write_text(inner)
     wrong = 'from linkage import *\nclass Wrong(Mechanism):\n    O = Ground(0, 0)\n    B = Dyad("A", "O", AB=1.0, OB=1.0, side=LEFT)\n'
     (own / "wrong.py").write_text(wrong)
     code, _, err = said(*arguments.split())
     assert code == 2
     assert err.startswith("hydrolinkage: ") and err.count("\n") == 1
-    assert words in err
+    assert words in err.replace(f"{own}/", "")
+
+
+def test_a_heading_of_several_members_is_told_with_each_of_them():
+    names = ["S", "thrust lift", "pressure lift", "pressure tilt", "drive force S"]
+    for given in ("pressure", "presure"):
+        assert did_you_mean(given, names) == " Did you mean pressure lift or pressure tilt?"
+    assert did_you_mean("pressure tlt", names) == " Did you mean pressure tilt?"
+
+
+def test_two_pins_in_one_text_are_two():
+    plain, quoted = ["import", "a.dxf", "--cylinder", "A", "B=300mm"], ["import", "a.dxf", "--cylinder", "A B=300mm"]
+    assert commands.rearranged(quoted) == commands.rearranged(plain) == plain
 
 
 def test_ratio_at_a_dead_point_is_refused_in_one_line(said):

@@ -38,7 +38,7 @@ from linkage.cli import main
 from linkage.cli.machines import find
 from linkage.exports.calculation import Calculation, live_results
 from linkage.exports.drawing import Circle, Lettering, Measured, pose_parts
-from linkage.exports.workbook import cell_names, formula, from_si, to_si
+from linkage.exports.workbook import GIVEN, cell_names, formula, from_si, to_si
 from linkage.pictures.labels import half_of
 from linkage.pictures.layout import props
 from linkage.pictures.scene import Scene
@@ -75,6 +75,9 @@ class Turned(Mechanism):
     turned = angle(O, R1)
     load = Weight(B2, mass=10)
     rubbing = PinFriction(O, radius=12 * mm, coefficient=0.1)
+
+GIVEN_IN = {"Calculation": 4, "Results": 3}
+"""The rows of sheets in which a column says that it is given."""
 
 
 class Books(dict):
@@ -287,6 +290,21 @@ def test_pins_found_by_iteration_warn_when_a_dimension_changes(recalculated):
     assert warned(recalculated["iterated changed"]) == [
         "The pins B F G were found by iteration and do not fit these dimensions: export the changed design again."
     ]
+
+
+@needs_office
+def test_numbers_that_follow_no_input_say_so_where_they_stand_once_one_changes(iterated, recalculated):
+    plain, changed = recalculated["iterated"], recalculated["iterated changed"]
+    assert not any(cell.value for name, column in (("Dimensions", "G"), ("Strokes", "H")) for cell in plain[name][column][5:])
+    told = [cell.value for cell in changed["Dimensions"]["G"] if cell.value]
+    assert told[:2] == ["changed inputs", "Changed"] and len(told) == 3 and told[2].startswith("as exported ")
+    given = {sheet: [cell.column_letter for cell in changed[sheet][row] if str(cell.value) == GIVEN] for sheet, row in GIVEN_IN.items()}
+    plain_in = {sheet: written(iterated)[sheet][row + 1] for sheet, row in GIVEN_IN.items()}
+    dead = {sheet: [cell.column_letter for cell in cells if cell.data_type == "n"] for sheet, cells in plain_in.items()}
+    assert given == dead and given["Calculation"]
+    assert not any(cell.value == GIVEN for sheet, row in GIVEN_IN.items() for cell in plain[sheet][row])
+    struck = {sheet: {str(each.sqref)[0] for each in written(iterated)[sheet].conditional_formatting} for sheet in GIVEN_IN}
+    assert all(letter[0] in struck[sheet] for sheet, letters in given.items() for letter in letters)
 
 
 @pytest.mark.slow

@@ -1650,6 +1650,24 @@ def test_on_a_phone_the_name_and_the_forces_of_what_is_touched_are_told(chromium
         assert told == ["B", "59.6\N{THIN SPACE}kN on OBC from lift"]
 
 
+def test_a_page_opens_on_the_cylinder_whose_verdict_is_worst():
+    class Two(Mechanism):
+        S, tilt = Stroke(0.0, 0.30), Stroke(0.0, 0.20)
+        O, A = Ground(0.0, 0.6), Ground(0.35, 0.0)
+        B = Dyad(A, O, AB=0.60 + S, OB=0.55, side=RIGHT)
+        T, P = OnLink(O, B, OT=1.50), OnLink(O, B, OP=1.20, BOP=12 * deg)
+        Q = Dyad(P, T, PQ=0.34 + tilt, TQ=0.30, side=LEFT)
+        K = OnLink(T, Q, TK=0.50)
+        load, bucket = Weight(T, mass=900), Weight(K, mass=250)
+        lift = Cylinder(A, B, bore=63 * mm, rod=36 * mm, closed=0.6, stroke=0.3)
+        ram = Cylinder(P, Q, bore=50 * mm, rod=28 * mm, closed=0.34, stroke=0.2)
+        main, second = LiftCircuit(lift, pressure=180 * bar), LiftCircuit(ram, pressure=150 * bar)
+        digging = Over.path(S=[0.0, 0.3], tilt=[0.05, 0.15])
+
+    for design, name in ((Two(), "thrust ram"), (Two(**{"lift.bore": 0.045}), "1/reserve in % lift")):
+        assert PageRequests(design, 5).column == name
+
+
 @pytest.mark.slow
 def test_a_group_with_a_rule_that_fails_has_one_heading_and_folds_what_is_kept(chromium, tmp_path):
     file = page(ThreePointHitch(**{"lift.rod": 0.02}), tmp_path / "rod.html")

@@ -107,7 +107,7 @@ class PumpLine(LiftLine):
             found[f"lifting{name}"] = PageWords(noted("the least reserve is {value}, {place}"), fails={">=": lacks})
             holds = noted("with the pump off it holds up to {value}, {place}: above {limit}; take a larger size")
             found[f"holding{name}"] = PageWords(
-                noted("with the pump off it holds up to {value}, {place}: not above {limit}"), fails={"<=": holds}
+                noted("with the pump off it holds up to {value}, {place}: not above {limit}"), fails={"<=": holds}, is_need=True
             )
             if each.ram.side == "both":  # which way the load drives it back hangs on the design
                 found[f"lowering{name}"] = PageWords("", is_followed=False)
@@ -437,6 +437,10 @@ class LiftingCylinder:
         """Return a pressure in the unit of the sentences."""
         return show(float(pressure), self.unit, 4)
 
+    def enough(self, answer: Answer) -> str:
+        """Return a pressure that is needed or stands there, rounded up: one that is set to what is read holds."""
+        return show_enough(float(answer.value), self.unit)
+
     # -- lifting -------------------------------------------------------------------------------------------
 
     def lifting(self) -> Verdict:
@@ -490,7 +494,7 @@ class LiftingCylinder:
         found = self.judge.answer(most(pressure_request(*self.request_arguments, is_needed=True)))
         if found.unbounded or not np.isfinite(found.value):
             return said("No pressure and no bore lifts there; keep away from that pose.")
-        needed = show_enough(float(found.value), self.unit)
+        needed = self.enough(found)
         if self.circuit.relieves(self.judge.plan) and found.value > float(self.circuit.relief_pressure(self.judge.motion)):
             needed = said("{pressure}, at its relief valve as well", pressure=needed)
         if len(self.circuit.rams(self.judge.motion)) > 1:
@@ -551,7 +555,7 @@ class LiftingCylinder:
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
         words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []
         parts = [
-            said("the {side} holds up to {pressure}, {where}", pressure=self.show(each.value), side=side, where=each.place)
+            said("the {side} holds up to {pressure}, {where}", side=side, pressure=self.enough(each), where=each.place)
             for each, side in zip(found, words, strict=True)
             if each.value > TO_ROUNDING * limit
         ]
@@ -582,7 +586,7 @@ class LiftingCylinder:
             return said("no standard size is large enough, keep away from that pose") if alone else size
         sizes, answers = found
         holds = max(answers, key=lambda each: float(each.value))
-        return said("{remedy}: with {size} it is up to {pressure}", remedy=size, size=size_words(sizes), pressure=self.show(holds.value))
+        return said("{remedy}: with {size} it is up to {pressure}", remedy=size, size=size_words(sizes), pressure=self.enough(holds))
 
     def going_back(self, resistance: float = 0.0) -> Verdict:
         """Return whether it goes back by itself against the resistance of the returning oil; if not, the pressure on the other side.
@@ -608,7 +612,7 @@ class LiftingCylinder:
         if is_pushed and not push.unbounded:
             (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
         by = {"where": where, "against": against, "place": push.place, "pose": push.place}
-        by["push"] = show_enough(float(push.value), self.unit)
+        by["push"] = self.enough(push)
         if push.unbounded:
             text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
         elif self.ram.is_single_acting:
@@ -657,6 +661,8 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     back = sum(float(way) * one_design(ram.sized(judge.motion).pull_area) for ram, way in both)
     out, inwards = (show(each, "l", ".2f" if each > 0.1 * litre else 3) for each in (oil, back))
     says = said("{oil} from end to end outwards, {back} inwards", oil=out, back=inwards) if back else said("{oil} from end to end", oil=out)
+    if overs := dict.fromkeys(str(each.over) for pair in answers for each in pair if each.over):
+        says = f"{says} {said('over {over}', over=with_and(overs))}"
     rate = one_design(circuit.number(judge.motion, "flow"))
     if not rate > 0.0:
         return Verdict("oil", True, said("{says}; time follows from the pump's flow, which is not given.", says=says))

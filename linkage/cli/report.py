@@ -8,7 +8,19 @@ from pathlib import Path
 from ..disk import check_place
 from ..errors import ensure
 from ..plan import plan_measure
-from .command import PATH, Command, group, machine_options, option, picture, pose_options, repeatable, run_options, whole_number
+from .command import (
+    PATH,
+    Command,
+    group,
+    machine_options,
+    option,
+    picture,
+    pose_options,
+    progress_bar,
+    repeatable,
+    run_options,
+    whole_number,
+)
 from .settings import OVER, machine_of, motion_along, overs_of, pair, si_value, strokes_given, with_overs
 
 KINDS = (".html", ".pdf", ".md")
@@ -46,11 +58,13 @@ def report_command(options: Namespace) -> int:
     check_place(path)
     at = strokes_given(machine, options)
     rows = dict(pair(text, "--row", '"Order=4711"') for text in options.rows)
-    print(report(
-        machine, path, case=options.case, over=overs_of(machine, options.over), at=at, count=options.count,
-        columns=options.columns or None, trace=options.path, title_block=rows, start=options.start,
-        **{name: getattr(options, name) for name in TITLE},
-    ))  # fmt: skip
+    with progress_bar(f"writing {path.name}"):
+        written = report(
+            machine, path, case=options.case, over=overs_of(machine, options.over), at=at, count=options.count,
+            columns=options.columns or None, trace=options.path, title_block=rows, start=options.start,
+            **{name: getattr(options, name) for name in TITLE},
+        )  # fmt: skip
+    print(written)
     return 0
 
 
@@ -87,9 +101,10 @@ def page_command(options: Namespace) -> int:
         vary[name] = (values[0], values[1]) if equals else None
     from ..pictures import page
 
-    page(
-        machine, path, vary=vary or None, column=options.column, trace=options.path, at=at, count=options.count,
-        language=options.language,
-    )  # fmt: skip
+    with progress_bar(f"writing {path.name}"):
+        page(
+            machine, path, vary=vary or None, column=options.column, trace=options.path, at=at, count=options.count,
+            language=options.language,
+        )  # fmt: skip
     print(path)
     return 0

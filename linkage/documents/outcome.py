@@ -108,7 +108,8 @@ def results_blocks(
         if names is not None:
             strokes = [name for name in subject.machine.strokes if name in known]
             listed = [known[name] for name in dict.fromkeys([*strokes, *names])]
-        shown = [column for column in listed if column.name not in run.held]
+        bare = [] if names else [column.name for column in listed if np.isnan(np.asarray(column.shown, float)).all()]
+        shown = [column for column in listed if column.name not in {*run.held, *bare}]
         caption = said("Results {run}", run=words) if words else said("Results over the stroke")
         outside = np.ravel(motion.reached & ~judged_poses(subject.judge, motion)).tolist()
         moving = [column for column in shown if np.size(column.values) > 1 and column.name not in run.ways]
@@ -117,6 +118,8 @@ def results_blocks(
         still = {heading_of(each.name): f"{text} {unit_sign(each.unit)}".strip() for each, text in texts.items() if text}
         yield from still_blocks(still, told)
         told = still
+        if bare:
+            yield said("Without a value at all these poses: {values}.", values=", ".join(map(heading_of, bare)))
         yield from filter(None, [dagger_words() if any(outside) else "", friction_of_columns(motion, shown)])
     if names is None and subject.doubles:
         pairs = (said("{drive} is {thrust}", drive=heading_of(one), thrust=heading_of(other)) for one, other in subject.doubles.items())
@@ -197,9 +200,9 @@ def one_curve(names: Sequence[str], columns: Mapping[str, Column], limits: Mappi
 
 
 def still_text(subject: ReportSubject, column: Column) -> str:
-    """Return a column's value as it is shown, if it is the same all along, NO_VALUE of one without any; else ""."""
+    """Return a column's value as it is shown, if it is the same all along; else ""."""
     values = np.asarray(column.shown, float).ravel()
-    texts = {*cell_texts(subject, column, values[~np.isnan(values)])} or {NO_VALUE}
+    texts = {*cell_texts(subject, column, values[~np.isnan(values)])}
     return texts.pop() if len(texts) == 1 else ""
 
 
@@ -326,10 +329,9 @@ def members_section(subject: ReportSubject, members: Mapping[str, Tabled]) -> Se
         except LinkageError as error:
             return Section(title, (str(error),))
     found = [[next(answers) for _ in each] for each in questions]
-    rows = tuple(
-        (name, column.heading, *end_cells(subject, each, Least, column), *end_cells(subject, each, Most, column))
-        for (name, column), each in zip(columns, found, strict=True)
-    )
+    pairs = zip(columns, found, strict=True)
+    ends = [[*end_cells(subject, each, Least, column), *end_cells(subject, each, Most, column)] for (_, column), each in pairs]
+    rows = tuple((name, column.heading, *each) for (name, column), each in zip(columns, ends, strict=True) if {*each} - {"–", ""})
     shown = dict.fromkeys(name for name, _ in columns)
     refused = []
     for name in members:

@@ -17,7 +17,7 @@ from ..language import heading_of, said
 from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
 from ..plan import Mask, Plan, name_or_pins, opening
 from ..quantities import Member
-from ..units import deg, display_unit, show
+from ..units import deg, display_unit, rounded_up, show
 from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
@@ -283,7 +283,9 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     elif not judge.is_reached:
         ok, text = False, " ".join(str(out_of_reach(judge.places[0].motion)).split())
     else:
-        deepest = {"share": share_text(answer.lost.share), "place": answer.place, "why": answer.lost.sentence}
+        share = share_text(answer.lost.share)
+        share = said("{share} of {over}", share=share, over=answer.over) if "over" in answer.named and answer.over else share
+        deepest = {"share": share, "place": answer.place, "why": answer.lost.sentence}
         text = said("over {spans} {share} cannot be assembled, deepest {place}: {why}", spans=spans, **deepest).rstrip(".")
         remedy = said('what follows holds for the rest. Shorten a stroke, or declare Over(..., lost="allowed").')
         text = said("{lost}; its Over allows that.", lost=text) if ok else f"{text}; {remedy}"
@@ -537,11 +539,14 @@ def pose_sentence(motion: Motion) -> str:
     at_pose = Judge(plan, designs, [over_pose(motion, cases) for cases in occurring])
     found, unknown, faults = dict[str, Answer](), list[str](), list[str]()
     with unwarned():
-        for rule, (_, _, condition) in rules_of(at_pose).items():
+        for rule, (member, own, condition) in rules_of(at_pose).items():
             heading = heading_of(rule)
             try:
                 measures = measures_of(plan, conditions_of([condition], None)[0])
-                found[heading] = replace(at_pose.answer(condition), measures=measures)
+                found[heading] = answer = replace(at_pose.answer(condition), measures=measures)
+                words = speakers(plan, HasVerdicts)[member].page_words(at_pose).get(own) if answer.ok is False else None
+                if words is not None and words.is_need:
+                    found[heading] = replace(answer, value=rounded_up(float(answer.value), display_unit(measures, "mm")))
             except LinkageError:
                 unknown.append(heading)
     if not found and not unknown:

@@ -59,7 +59,7 @@ class Over(Member):
     shape: str
     strokes: Mapping[str, Any]
     only: tuple[PoseCondition, ...]
-    cases: tuple[str, ...] | None
+    _cases: tuple[Reference, ...] | None
     lost: str
     time: tuple[float, ...] | None
     """The instants of a path in time [s]: of each place, or those at which it begins and ends; None of any other."""
@@ -164,10 +164,15 @@ class Over(Member):
         if cases is not None and not (named and cases):
             raise DefinitionError(f'Over(cases={cited(cases)}): names of load cases are expected, cases=("full",); leave it out for all.')
         require(lost in ("", ALLOWED), "Over(lost", lost, '"allowed" is expected, or nothing: places that are lost are then a fault')
-        names = tuple(map(name_of, cases)) if is_listed(cases) else None
-        held = {"shape": shape, "strokes": FrozenDict(values), "only": tuple(listed), "cases": names, "lost": lost, "time": instants}
+        occurring = tuple(cases) if is_listed(cases) else None  # those of its own class have no names yet
+        held = {"shape": shape, "strokes": FrozenDict(values), "only": tuple(listed), "_cases": occurring, "lost": lost, "time": instants}
         for name, value in held.items():
             object.__setattr__(self, name, value)
+
+    @property
+    def cases(self) -> tuple[str, ...] | None:
+        """The names of the load cases that occur there; None for all."""
+        return None if self._cases is None else tuple(map(name_of, self._cases))
 
     def parts(self) -> tuple[Any, ...]:
         return ()
@@ -406,7 +411,8 @@ class Over(Member):
         given = [f"time={[*self.time] if of_places else self.time}"] if self.time is not None else []
         given += [keywords({name: ends_text(value) for name, value in self.strokes.items()})] if self.strokes else []
         given += [f"only=[{', '.join(map(str, self.only))}]"] if self.only else []
-        given += [f"cases={self.cases!r}"] if self.cases is not None else []
+        named = (name_of(each, is_needed=False) or str(each) for each in self._cases or ())
+        given += [f"cases={(*named,)!r}"] if self._cases is not None else []
         return f"{word}({', '.join([*given, *([f'lost={self.lost!r}'] if self.lost else [])])})"
 
     def __repr__(self) -> str:

@@ -17,10 +17,11 @@ function say(text, given) {
   return given ? said.replace(/\{(\w+)\}/g, (_, name) => given[name]) : said;
 }
 const minus = (text) => (/^-[0.]*$/.test(text) ? text.slice(1) : text).replace("-", "\u2212");
-/* Return a number with its digits grouped, never in powers of ten. */
+/* Return a number with its digits grouped, never in powers of ten; halves go to the even digit, as in Python. */
 function fixed(value, decimals) {
   if (!isNumber(value)) return "\u2013";
-  const [whole, part] = value.toFixed(decimals).split(".");
+  const n = value * 10 ** decimals, isHalf = Number.isInteger(value * 2 ** (decimals + 1)) && abs(n % 1) === 0.5;
+  const [whole, part] = (isHalf ? (2 * round(n / 2)) / 10 ** decimals : value).toFixed(decimals).split(".");
   const grouped = whole.replace(/^-/, "").length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u202f") : whole;
   return minus(part ? `${grouped}.${part}` : grouped);
 }

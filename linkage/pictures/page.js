@@ -560,8 +560,7 @@ on(window, "hashchange", () => { if (recall()) { play(false); speak(); soon("des
 
 /* ---- one frame at a time ---- */
 
-const PERIOD = 5; /* seconds for there and back, or once round; a path in time takes its own */
-const period = () => { const { path, unit, start, end } = strokes[runs]; return path && unit ? end - start : PERIOD; };
+const period = () => { const { path, unit, start, end } = strokes[runs]; return path && unit ? end - start : 5; }; /* seconds for there and back, or once round */
 let playing = false, clock = 0, last = null, waiting = false, todo = new Set(), later;
 let comparing, baseAt = "";
 const timing = { frames: 0, total: 0, most: 0 };

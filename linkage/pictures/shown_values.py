@@ -85,7 +85,7 @@ def leaf_bound(constraint: Constraint, is_shown: Callable[[Leaf], bool]) -> tupl
 
 # A reserve has no bound where little is carried: its curve is the load in % of what the pump can carry.
 
-RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("1/reserve in %"), 100.0
+RESERVE, PUMP_LOAD, WHOLE = "reserve", noted("1/reserve"), 100.0
 
 
 def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Column, Sequence[object] | None]:
@@ -94,7 +94,7 @@ def as_curve(column: Column, bound: Sequence[object] | None = None) -> tuple[Col
     if column.unit or not is_law or not re.match(rf"{RESERVE}\b", column.name):
         return column, bound
     with np.errstate(divide="ignore"):
-        share = Column(column.name.replace(RESERVE, PUMP_LOAD, 1), WHOLE / np.asarray(column.values, float), "", 1)
+        share = Column(f"{column.name.replace(RESERVE, PUMP_LOAD, 1)}, %", WHOLE / np.asarray(column.values, float), "", 1)
     if bound is None:
         return share, Limit(WHOLE, said("all that the pump can carry"))
     value, text, fails = limit_of(bound)

@@ -54,7 +54,8 @@ class OfPaths(Lift):
 class OfABox(Lift):
     """A box in which both strokes run."""
 
-    field = Over(S=(0.05, 0.20), T=(0.04, 0.15), cases=["heavy"])
+    heavy = LoadCase("heavy", scale={"load": 1.6})
+    field = Over(S=(0.05, 0.20), T=(0.04, 0.15), cases=[heavy])
     about = Featured("reserve arm")
 
 
@@ -162,7 +163,7 @@ def test_a_table_of_the_command_and_a_plot_show_the_same_runs(machine, capsys, m
     assert len(curves) == 2 * sum(run.is_curve for run in runs)
     for ax in curves:
         name, values = "thrust arm", 1e3 * np.asarray(ax.lines[0].get_ydata())
-        if ax.get_title(loc="left").startswith("1/reserve in % boom"):
+        if ax.get_title(loc="left").startswith("1/reserve boom, %"):
             name, values = "reserve boom", 1e5 / values
         check_within(name, values, ends[name])
 
@@ -189,7 +190,7 @@ def test_every_command_shows_a_path_in_the_load_case_that_occurs_there(capsys, m
     played = playback(OfPaths(), 5, "thrust boom", at=motion, eased=False)
     assert_allclose(played.column.values, wanted, rtol=1e-9)
     assert main(["plot", "ours", "--over", "back", "--count", "5", *picture]) == 0
-    assert figures.pop().axes[0].get_title(loc="left").startswith("1/reserve in % boom")
+    assert figures.pop().axes[0].get_title(loc="left").startswith("1/reserve boom, %")
     assert main(["plot", "ours", "thrust boom", "--at", "S=0.05,0.1", *picture]) == 0
 
 

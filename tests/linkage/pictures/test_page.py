@@ -1200,8 +1200,8 @@ def test_what_every_machine_is_given_is_followed(chromium, written):
         run = shown("hydrolinkage.sweep()")
         mine = {each.name: np.asarray(each.values) for each in results(Lifting(**design), Lifting(**design).sweep(101))}
         rows = {name: row for name, _, row, *_ in shown("hydrolinkage.data.columns")}
-        mine["1/reserve in %"] = 100.0 / mine["reserve"]
-        assert {"drive force", "thrust", "pressure", "1/reserve in %"} < rows.keys() and min(rows.values()) >= 0
+        mine["1/reserve, %"] = 100.0 / mine["reserve"]
+        assert {"drive force", "thrust", "pressure", "1/reserve, %"} < rows.keys() and min(rows.values()) >= 0
         for name, row in rows.items():
             assert_allclose(np.array(run["values"][row], float), np.broadcast_to(mine[name], (101,)), rtol=1e-10, atol=1e-12)
 
@@ -1219,14 +1219,14 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
     machine, file = Cased(), tmp_path / "cased.html"
     with Shown(chromium, page(machine, file, column="reserve", limit={"reserve": (1.25, "a quarter", "below")})) as shown:
         names = shown("[...document.getElementById('column').options].map((each) => each.textContent)")
-        assert "1/reserve in %" in names and not any(each.startswith("reserve") for each in names)
+        assert "1/reserve, %" in names and not any(each.startswith("reserve") for each in names)
         rows = {name: row for name, _, row, *_ in shown("hydrolinkage.data.columns")}
-        assert shown("hydrolinkage.data.limits")["1/reserve in %"][0:3:2] == [80.0, "above"]
+        assert shown("hydrolinkage.data.limits")["1/reserve, %"][0:3:2] == [80.0, "above"]
         for over, case in (("up", "half"), ("down", None)):
             shown.slide(f'[data-stroke="{over}"]', 0)
             run, k = shown("hydrolinkage.sweep()"), shown("hydrolinkage.data.cases").index(case or "")
             motion = machine.sweep(101, over=over)
-            for name, own in (("thrust", thrust("lift", case=case)), ("1/reserve in %", 100.0 / reserve("lift", case=case))):
+            for name, own in (("thrust", thrust("lift", case=case)), ("1/reserve, %", 100.0 / reserve("lift", case=case))):
                 assert_allclose(run["values"][rows[name][k]], motion[own], rtol=1e-9, err_msg=f"{name} {over}")
             assert isinstance(rows["B_x"], int)
             shown.settle()
@@ -1245,7 +1245,7 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
             ) + str(shown("[...document.querySelectorAll('#strokes input[type=text]')].map((each) => each.value)"))
             assert float(shown.tab.get_by_label("S, mm").input_value().split("\u2009")[0]) == pytest.approx(at, abs=0.05)
     curve, bound = as_curve(Column("reserve lift", np.array([4.0, 0.5, np.nan]), ""))
-    assert curve.name == "1/reserve in % lift" and bound[0] == 100.0
+    assert curve.name == "1/reserve lift, %" and bound[0] == 100.0
     assert_array_equal(curve.values, [25.0, 200.0, np.nan])
     for own in ("reserved", "reserve"):  # what a machine calls so is its own
         assert as_curve(Column(own, np.array([4.0, 0.5]), "", request=own))[0].name == own
@@ -1254,7 +1254,7 @@ def test_curves_of_a_path_are_in_its_load_case_and_a_reserve_is_the_pumps_load(c
     figure = plot(machine, ["reserve"])
     for ax, (over, case) in zip(figure.axes, (("up", "half"), ("down", None)), strict=True):
         assert_allclose(ax.lines[0].get_ydata(), 100.0 / machine.sweep(101, over=over)[reserve("lift", case=case)], rtol=1e-9)
-        assert ax.get_title(loc="left").startswith("1/reserve in %")
+        assert ax.get_title(loc="left").startswith("1/reserve, %")
 
 
 @pytest.mark.slow
@@ -1664,7 +1664,7 @@ def test_a_page_opens_on_the_cylinder_whose_verdict_is_worst():
         main, second = LiftCircuit(lift, pressure=180 * bar), LiftCircuit(ram, pressure=150 * bar)
         digging = Over.path(S=[0.0, 0.3], tilt=[0.05, 0.15])
 
-    for design, name in ((Two(), "thrust ram"), (Two(**{"lift.bore": 0.045}), "1/reserve in % lift")):
+    for design, name in ((Two(), "thrust ram"), (Two(**{"lift.bore": 0.045}), "1/reserve lift, %")):
         assert PageRequests(design, 5).column == name
 
 

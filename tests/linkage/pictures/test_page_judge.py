@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from hydraulics import Cylinder, LiftCircuit, OilLine, Pump, Tank, Telescope, pressure, thrust
+from hydraulics.remedy import show_enough
 from linkage import (
     RIGHT,
     Dimension,
@@ -113,6 +114,22 @@ class Dumper(Mechanism):
     ram = Cylinder(A, B, bore=80 * mm, rod=45 * mm, works="both")
     pump = LiftCircuit(ram, pressure=160 * bar)
     compares = Compares()
+
+
+@NEEDED
+def test_a_page_rounds_as_python_does():
+    """Halves, which languages round two ways, and what is needed, which is rounded up so that what is read is enough."""
+    random = np.random.default_rng(3)
+    halves = [(random.integers(-9999, 9999) / 2.0**k, k - 1) for k in (1, 2, 3, 4) for _ in range(15)]
+    needed = [*random.uniform(1e5, 3e7, 60).tolist(), 170.0 * bar, 170.04 * bar]
+    text = re.search(r"(?s)const minus.*?(?=const signed)", page_part("mechanism.js"))[0]
+    text += re.search(r"const enough.*", page_part("verdicts.js"))[0]
+    said = "job[0].map(([v,d])=>fixed(v,d)).concat(job[1].map((v)=>short(enough(v,{factor:1e5})/1e5,4)))"
+    code = f"const {{abs,min,max,floor,ceil,log10,round}}=Math,isNumber=Number.isFinite;{text};const job={json.dumps([halves, needed])}"
+    run = subprocess.run(["node", "-e", f"{code};console.log(JSON.stringify({said}))"], capture_output=True, text=True, check=True)
+    found = [each.replace("\u202f", "").replace("\u2212", "-") for each in json.loads(run.stdout)]
+    expected = [f"{value:z.{digits}f}" for value, digits in halves] + [f"{float(show_enough(each, 'bar').split()[0]):g}" for each in needed]
+    assert found == expected
 
 
 @NEEDED

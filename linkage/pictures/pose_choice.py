@@ -82,7 +82,8 @@ def most_open(tried: Motion, scene: Scene, dead: FloatArray) -> int:
     degrees = STEP * poses * np.min([way_round(shares, each, 1.0) for each in dead] or [np.ones(poses)], axis=0)
     places = [scene.places[name] for name in (*scene.pins, *scene.dots)]
     apart = np.array([np.hypot(*(P - Q)) for P, Q in combinations(places, 2)])
-    apart = apart[np.nanmax(np.ptp(apart, axis=1, keepdims=True), axis=1) > 1e-9 * np.nanmax(apart)]  # not what stays together
+    there = apart[:, tried.reached.ravel()]
+    apart = apart[np.ptp(there, axis=1) > 1e-9 * np.max(there)]  # not what stays together
     nearest = np.min(apart, axis=0, initial=np.inf) if apart.size else np.full(poses, np.inf)
     best = float(np.nanmax(np.where(tried.reached.ravel(), nearest, np.nan)))
     is_roomy = nearest >= min(ROOM * scene.size, 0.8 * best) * (1.0 - 1e-9)

@@ -91,13 +91,19 @@ class DrawingReader:
             self.found.add_point(key, word if far <= 4.0 * radius and word else key, *place, circle in ground or is_hatched)
             self.pins[key], self.circles[key] = (place, radius), [circle]
         self.found.ensure(self.pins, "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
+        drawn = [(each, corners_of(each)) for each in self.entities_on(LINES, "ground")]
+        frame = [corners for _, corners in drawn if self.is_closed(corners)]
+        frame += [corners for _, corners in outlines([each for each, own in drawn if own not in frame], MEETS * self.found.size)]
+        self.found.outlines += [([], corners) for corners in frame]
+        for key, (place, _) in self.pins.items():  # a plate of the frame that draws no circles has all that it surrounds
+            self.found.points[key].fixed |= not ground and any(surrounds(place, corners) for corners in frame)
         self.read_links()
         for each in self.entities_on(("LINE",), "slides"):
             P, Q = corners_of(each)
             keys = [key for key in self.met([P, Q]) if not self.found.points[key].fixed]
             self.found.slides += [(key, line_angle(P, Q)) for key in keys]
             if not keys:
-                self.found.left_out.append(f"a line of the layer {each.dxf.layer} without pins")
+                self.found.left_out.append(f"a line of {drawn_on(each)} without pins")
         for role in ("crank", "cylinder"):
             for each in self.entities_on(("LINE",), role):
                 keys = self.met(corners_of(each))
@@ -111,9 +117,12 @@ class DrawingReader:
         drawn = [*self.entities_on(LINES, "links")] or [*self.entities_on(LINES, "")]
         met = [(each, self.met(corners_of(each))) for each in drawn]
         found = [(each, self.is_closed(corners_of(each)), keys) for each, keys in met if len(keys) > 1]
+        plates = {id(each): corners_of(each) for each, is_plate, _ in found if is_plate}
         joined = list[Any]()
         for edges, corners in outlines([each for each, keys in met if len(keys) < 2], MEETS * self.found.size):
-            found += [(edges[0], True, keys)] if len(keys := self.met(corners)) > 1 else []
+            if len(keys := self.met(corners)) > 1:
+                found.append((edges[0], True, keys))
+                plates[id(edges[0])] = corners
             joined += edges
         names, bodies = self.in_parts(found)
         alone = [(each, keys) for each, keys in met if len(keys) < 2 and not any(each is edge for edge in joined)]
@@ -128,6 +137,8 @@ class DrawingReader:
                 self.found.left_out.append(f"a link {pins}, whose pins all lie on the link {others}")
             elif not any({*keys} == {*other} for other in bodies[:number]):
                 self.found.add_link(names[number], keys)
+            if id(found[number][0]) in plates:
+                self.found.outlines.append((keys, plates[id(found[number][0])]))
         plates = [{*keys} for (_, is_plate, _), keys in zip(found, bodies, strict=True) if is_plate]
         locked = [each for each in combinations(plates, 2) if each[0] != each[1] and len(each[0] & each[1]) > 1]
         for both in locked[:1]:
@@ -153,7 +164,7 @@ class DrawingReader:
                 foreign = []
             drawn.append([key for key in keys if key not in foreign])
             if foreign:
-                where = part[1] or f"an outline of the layer {entity.dxf.layer}"
+                where = part[1] or f"an outline of {drawn_on(entity)}"
                 self.found.left_out.append(f"{' '.join(points[key].name for key in foreign)} within {where}, which draws no circle there")
         return ["" if len({*parts}) == 1 else name for _, name in parts], drawn
 
@@ -190,7 +201,7 @@ class DrawingReader:
         ends = dict.fromkeys([*corners[:1], *corners[-1:]])
         places = [f"({x:.6g}, {y:.6g})" for x, y in ends if not self.met([(x, y), (x, y)])]
         ends_off = f": no pin at {' and '.join(places)}" if places else ""
-        self.found.left_out.append(f"{kind} of the layer {entity.dxf.layer} {why}{ends_off}")
+        self.found.left_out.append(f"{kind} of {drawn_on(entity)} {why}{ends_off}")
 
     def drive(self, role: str, P: str, Q: str) -> None:
         """Enter a drive between two pins; a crank turns about the fixed one, and brings its own link."""
@@ -211,6 +222,12 @@ def drawn_part(entity: Any, blocks: Mapping[int, Any]) -> tuple[int, str]:
     while id(block) not in blocks and block is not None:
         block = block.source_block_reference
     return id(block), "" if block is None else str(block.dxf.name)
+
+
+def drawn_on(entity: Any) -> str:
+    """Return the layer that an entity is drawn on in words, or the block, where that is inserted on the layer of all that has none."""
+    block, layer = entity.source_block_reference, str(entity.dxf.layer)
+    return f"the block {block.dxf.name}" if block is not None and layer == "0" else f"the layer {layer}"
 
 
 def corners_of(entity: Any) -> list[Place]:

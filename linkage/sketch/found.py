@@ -21,7 +21,7 @@ from .machine_sketch import MachineSketch, Place, SketchDrive, SketchForce, Sket
 OFF_LINE = 1e-3
 """A point farther from its slide than so much of the size of the drawing is not on it."""
 CALLED = "Mechanism", "Stroke", "drawn", "Ground", "Crank", "Pin", "Link", "Guide", "Slide", "Cylinder", "Weight", "Force", "deg", "sketch"
-WORDS = {*CALLED, *vars(Mechanism)}
+WORDS = {*CALLED, "Outline", *vars(Mechanism)}
 """What a member may not be called, because the file of the class says it already."""
 TURN = 2.0 * pi
 HALF = 0.5
@@ -71,6 +71,8 @@ class FoundMachine:
     drives: list[FoundDrive] = field(default_factory=list)
     forces: list[tuple[str, str, Place]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    outlines: list[tuple[list[str], list[Place]]] = field(default_factory=list)
+    """The points of the link that carries each outline, none for the frame, and its corners in the file's units."""
     left_out: list[str] = field(default_factory=list)
     part: str = ""
     """The line or the joint that is read, where the file has such."""
@@ -231,13 +233,24 @@ class FoundMachine:
         for key, along in self.slides:
             line = remainder(along, TURN) if isinstance(along, float) else (names[along[0]], names[along[1]])
             slides[legal_name(f"slide_{names[key]}", taken)] = SketchSlide(names[key], line)
+        outlines = {
+            legal_name("plate", taken): (tuple(names[key] for key in keys[:2]), tuple(self.carried(keys[:2], corners)))
+            for keys, corners in self.outlines
+        }
         drives = dict(self.named_drives(names, places, taken))
         forces = {legal_name(name, taken): SketchForce(names[key], (noiseless(x), noiseless(y))) for name, key, (x, y) in self.forces}
         if self.left_out:
             self.notes.append(f"Left out: {few(self.left_out, '; ')}.")
         fixed = tuple(names[key] for key, point in self.points.items() if point.fixed)
         title, notes = legal_name(title, {"Mechanism"}), tuple(map(printable, self.notes))
-        return MachineSketch(title, places, fixed, links, slides, drives, forces=forces, notes=notes)
+        return MachineSketch(title, places, fixed, links, slides, drives, forces=forces, notes=notes, outlines=outlines)
+
+    def carried(self, keys: Sequence[str], corners: Sequence[Place]) -> Iterator[Place]:
+        """Yield the corners of an outline [m] in the axes from one point that carries it to the other; without these as they are drawn."""
+        start, end = (complex(*self.points[key].place) for key in keys) if keys else (0j, 1 + 0j)
+        for x, y in corners[:-1]:  # the last is the first
+            place = (complex(x, y) - start) * (end - start).conjugate() / abs(end - start) * (self.unit or 1.0)
+            yield round(place.real, 6) + 0.0, round(place.imag, 6) + 0.0
 
     def named_drives(self, names: Mapping[str, str], places: Mapping[str, Place], taken: set[str]) -> Iterator[tuple[str, SketchDrive]]:
         """Yield the drives [SI] by their names; a note on a cylinder of which the file says no stroke."""

@@ -123,6 +123,9 @@ class MachineSketch:
         Forces at points, by their names; the drawing board has none.
     angles : mapping of str to float
         Angles of links that are given instead of measured [rad], by their labels, such as those of `rounded`.
+    outlines : mapping of str to tuple
+        Outlines that are only drawn, by their names: the two points of a link that carry one, none for the frame, and its corners [m] in
+        the axes from the first to the second.
 
     Raises
     ------
@@ -141,6 +144,7 @@ class MachineSketch:
     notes: tuple[str, ...] = ()
     forces: Mapping[str, SketchForce] = field(default_factory=dict)
     angles: Mapping[str, float] = field(default_factory=dict)
+    outlines: Mapping[str, tuple[tuple[str, ...], tuple[Place, ...]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         ensure(self.points, f"{self.name}: no point is drawn; a sketch begins with points and links.")
@@ -219,6 +223,9 @@ class MachineSketch:
         found["hydraulics"] = {name: {"Cylinder": [*drive.ends], "bore": drive.bore, "rod": drive.rod} for name, drive in rams.items()}
         found["loads"] = {name: {"Weight": weight.point, "mass": weight.mass} for name, weight in self.weights.items()}
         found["loads"] |= {name: {"Force": force.point, "vector": [*force.vector]} for name, force in self.forces.items()}
+        found["surroundings"] = {
+            name: {"points": corners, **({"on": " ".join(on)} if on else {})} for name, (on, corners) in self.outlines.items()
+        }
         return {name: plain_entry(table) for name, table in found.items() if table}
 
     def check_driven(self) -> None:
@@ -273,7 +280,7 @@ class MachineSketch:
         lines += [f"    {name} = Stroke({python_number(low)}, {python_number(high)})" for name, (low, high) in tables["strokes"].items()]
         lines += [f"    sketch = drawn({', '.join(f'{name}={value!r}' for name, value in tables['drawn']['sketch'].items())})", ""]
         lines += [f"    {name} = Ground({x!r}, {y!r})" for name, (x, y) in tables.get("ground", {}).items()]
-        for section in ("points", "pins", "links", "guides", "slides", "hydraulics", "loads"):
+        for section in ("points", "pins", "links", "guides", "slides", "hydraulics", "loads", "surroundings"):
             lines += [f"    {name} = {python_member(section, table)}" for name, table in tables.get(section, {}).items()]
         imports = ["from hydraulics import Cylinder"] * ("hydraulics" in tables) + ["from linkage import *"]
         return "\n".join([*imports, "", "", *lines]) + "\n"
@@ -399,6 +406,9 @@ def python_member(section: str, table: Mapping[str, Any]) -> str:
             return f"Pin({at[0]})"
         case "links":
             return f"Link({', '.join([quoted(table['points']), *words])})"
+        case "surroundings":
+            carried = f", on={quoted(table['on'])}" if "on" in table else ""
+            return f"Outline({table['points']!r}{carried})"
         case "guides":
             given_ends = (table[name] for name in ("from", "to") if name in table)
             ends = [quoted(end) if isinstance(end, str) else repr((*end,)) for end in given_ends]

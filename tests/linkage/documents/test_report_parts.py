@@ -674,6 +674,6 @@ def test_a_desk_model_has_figures_and_no_curve_without_a_value():
     least, most = machine.at(S=[90 * mm, 140 * mm])[thrust("ram")] / 1e3
     assert f"{least:.4g}" in text and f"{most:.4g}" in text
     assert "0.00993 l from end to end" in text and "At its longest, 140 mm" in text
-    assert "thrust, kN along S" in text and "reserve -." in text and "reserve in % along" not in text
+    assert "thrust, kN along S" in text and "Without a value at all these poses: reserve." in text and "reserve, % along" not in text
     forces = {row.cells[0]: row.cells[4] for row in max_table(machine)}
     assert forces["A"] == f"{-most:.3g}" and float(forces["O"]) > 0.0

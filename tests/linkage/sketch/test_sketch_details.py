@@ -1,6 +1,7 @@
 """What files say beside pins and links: slides that may not turn, names, units, what is left out; out again; and the command."""
 
 import re
+from itertools import pairwise
 from math import pi
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 
 from linkage import DefinitionError, FileError, driving_force, export, pin_forces
 from linkage.cli import main
+from linkage.cli.machines import find
 from linkage.sketch import MachineSketch, SketchDrive, is_foreign, read_sketch, sketch_of, sketch_text
 from tests import shipped
 from tests.for_all import first_daily, for_all
@@ -322,6 +324,35 @@ def test_layers_of_a_drawing_are_named(tmp_path):
             read_sketch(path, layers={**layers, role: ["notes", "Bolt"]})
     with pytest.raises(DefinitionError, match="only a drawing"):
         read_sketch(put(tmp_path, "a.csv", emit.csv(BY_NAME["Rocker"])), layers=layers)
+
+
+def test_plates_of_a_drawing_are_outlines_of_their_links_and_one_of_the_frame_fixes_its_pins(tmp_path):
+    import ezdxf
+
+    document = ezdxf.new(units=4)
+    space, rocker = document.modelspace(), document.blocks.new("ROCKER")
+    pins = dict(O=(0, 0), C=(200, 0), A=(40, 60), B=(170, 120))
+    for name, place in pins.items():
+        space.add_circle(place, 4)
+        space.add_text(name, dxfattribs={"insert": place, "height": 5})
+    space.add_lwpolyline([(-30, -30), (230, -30), (230, 15), (-30, 15)], close=True, dxfattribs={"layer": "FRAME"})
+    space.add_lwpolyline(arm := [(-8, -8), (10, -8), (50, 55), (45, 70), (30, 68)], close=True, dxfattribs={"layer": "ARM"})
+    for P, Q in pairwise([(30, 52), (182, 115), (172, 132), (35, 72), (30, 52)]):
+        space.add_line(P, Q, dxfattribs={"layer": "LINK"})
+    rocker.add_lwpolyline([(-9, -9), (9, -9), (-22, 128), (-38, 128)], close=True)
+    rocker.add_line((0, 0), (20, 20))
+    space.add_blockref("ROCKER", (200, 0))
+    document.saveas(path := tmp_path / "plates.dxf")
+    found = read_sketch(path, layers=dict(ground=["FRAME"]), drives=[("O", "A")])
+    assert found.fixed == ("O", "C") and [on for on, _ in found.outlines.values()] == [(), ("O", "A"), ("C", "B"), ("A", "B")]
+    assert "Left out: a line of the block ROCKER with 1 pins: no pin at (220, 20)." in found.notes
+    along = complex(40, 60) / abs(complex(40, 60))
+    drawn = [1e3 * complex(*corner) * along for corner in found.outlines["plate_2"][1]]
+    assert np.allclose(drawn, [complex(*corner) for corner in arm], atol=2e-3)
+    for kind in (found.to_class(), find(put(tmp_path, "plates.toml", found.to_toml())), find(put(tmp_path, "plates.py", found.to_python()))):
+        assert [name for name in kind.plan.members if name.startswith("plate")] == ["plate", "plate_2", "plate_3", "plate_4"]
+        assert kind.plan.members["plate_2"].on == ("O", "A")
+    assert found.rounded(0.001).outlines == found.outlines
 
 
 def cad_drawing(how):

@@ -17,10 +17,9 @@ from ..motion.measures import Constraint, least, measure_of, most
 from ..pictures.page_judge import share_used, used
 from ..pictures.shown_values import limit_of
 from ..reports import is_column
-from ..units import display_unit, rounded_up, show, shown_number, unit_sign
+from ..units import display_unit, rounded_up, show, shown_number
 from ..verdict import Verdict
 from .content import Mark, Section, TableBlock
-from .outcome import amount_text
 from .run import CLOSE, ReportSubject, largest
 
 
@@ -113,12 +112,10 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
         measure = each.question.left if isinstance(each.question, Constraint) else each.question
         kind, quantity = each.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)
         value = "–"  # of what kind it is, is unknown
-        if column is not None:
-            value = f"{amount_text(subject, each, column)} {unit_sign(column.unit)}".strip()
-        elif each.unbounded:
+        if each.unbounded:
             value = each.amount
-        elif kind or (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
-            value = f"{show(float(each.value), display_unit(kind, 'mm'), 4)}{sign}"
+        elif column is not None or kind or (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
+            value = f"{show(float(each.value), display_unit(kind, 'mm') if column is None else column.unit, 4)}{sign}"
         rows.append((rule, verdict_mark(ok), value, share, each.situation, places_text(each.strokes, each.units)))
     heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
     if rows:

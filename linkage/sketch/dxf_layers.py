@@ -139,8 +139,8 @@ class DrawingReader:
                 self.found.add_link(names[number], keys)
             if id(found[number][0]) in plates:
                 self.found.outlines.append((keys, plates[id(found[number][0])]))
-        plates = [{*keys} for (_, is_plate, _), keys in zip(found, bodies, strict=True) if is_plate]
-        locked = [each for each in combinations(plates, 2) if each[0] != each[1] and len(each[0] & each[1]) > 1]
+        around = [{*keys} for (_, is_plate, _), keys in zip(found, bodies, strict=True) if is_plate]
+        locked = [each for each in combinations(around, 2) if each[0] != each[1] and len(each[0] & each[1]) > 1]
         for both in locked[:1]:
             one, other = (" ".join(self.found.points[key].name for key in self.pins if key in each) for each in both)
             what = f"The outlines of {one} and {other} surround two pins or more together, so that neither could turn on the other"

@@ -436,7 +436,7 @@ def traced_levers(poses: FlatPoses, holders: Holders) -> tuple[Levers, ...]:
 
 def where_held(cond: FloatArray, values: FloatArray) -> FloatArray:
     """Return traced values where the levers are no nearer to a singular pose than forces are told, else NaN."""
-    return elementwise(lambda each: np.where(cond <= REFUSE, each, np.nan), (values,))
+    return cast(FloatArray, elementwise(lambda each: np.where(cond <= REFUSE, each, np.nan), (values,)))
 
 
 def levers_of(poses: FlatPoses, holders: Holders, senses: Sequence[int]) -> Levers:

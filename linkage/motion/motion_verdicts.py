@@ -303,10 +303,9 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
         text += " " + said("Of the declared {strokes} it runs less than 1 %: are lengths in m, angles in rad?", strokes=", ".join(scarcely))
     passed = [said("over {spans} no place is left to look at.", spans=domain_words(judge, empty))] if empty and ok is not None else []
     occurring = [place.over.cases for place in judge.places]
-    is_declared = judge.acting.case is None and all(place.over.name for place in judge.places)
-    for case in judge.plan.of_kind(LoadCase) if is_declared and None not in occurring else ():
-        if not any(case in cases for cases in occurring if cases):
-            passed.append(said("The load case {case} occurs over no Over, so that nothing is judged in it.", case=case))
+    if judge.acting.case is None and None not in occurring and all(place.over.name for place in judge.places):
+        never = sorted({*judge.plan.of_kind(LoadCase)}.difference(*filter(None, occurring)))
+        passed += [said("The load case {case} occurs over no Over, so that nothing is judged in it.", case=case) for case in never]
     return [Verdict("assembly", ok, text, answer=answer), *(Remark(f"{each[0].upper()}{each[1:]}") for each in passed)]
 
 

@@ -267,7 +267,7 @@ class System:
         return reduce(np.add, laws, self.poses.zeros())
 
     def push(self, line: PressureLine, u: FloatArray, q: FloatArray) -> FloatArray:
-        """Return what the first cylinder of a line pushes beside what laws give it (n,) [N], of joint forces and frictions."""
+        """Return the thrust of a line's first cylinder beside what laws give it (n,) [N], of joint forces and frictions."""
         first = next(each for each in self.structure.struts if each.line is line)
         return self.thrust(first).at(u[:, : self.width], q) - self.given_thrust(line.cylinders[0])
 

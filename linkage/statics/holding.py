@@ -435,7 +435,7 @@ def traced_levers(poses: FlatPoses, holders: Holders) -> tuple[Levers, ...]:
 
 
 def where_held(cond: FloatArray, values: FloatArray) -> FloatArray:
-    """Return traced values where the levers are no nearer to a singular pose than forces are told, else NaN."""
+    """Return traced values where the condition of the levers allows forces, else NaN."""
     return cast(FloatArray, elementwise(lambda each: np.where(cond <= REFUSE, each, np.nan), (values,)))
 
 

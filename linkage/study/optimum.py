@@ -719,7 +719,7 @@ class EvaluatedDesigns:
         return np.asarray((self.reached == 1.0) & np.isfinite(self.value))
 
     def ranks(self, near: float = 1e-9) -> tuple[FloatArray, FloatArray]:
-        """Return what orders them, (m,): their misses, none up to `near` of a condition, then the objective, less where it is better."""
+        """Return their ranks, (m,): their misses, none up to `near` of a condition, then the objective, less where it is better."""
         short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
         return np.where(short <= near, 0.0, short), np.where(np.isfinite(self.value), self.sense * self.value, np.inf)
 

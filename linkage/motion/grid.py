@@ -336,7 +336,7 @@ def to_rounding(
 
 def angles_behind(plan: Plan, nodes: Sequence[Node]) -> tuple[Node, ...]:
     """Return the moving angles behind nodes of a plan's program."""
-    behind = set(ancestors(nodes))
+    behind = set(ancestors(nodes)) if plan.trace.angles else ()
     return tuple(angle for angle in dict.fromkeys(plan.trace.angles) if angle in behind and angle.level is Level.POSE)
 
 

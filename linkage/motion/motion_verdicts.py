@@ -222,13 +222,13 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
             text = said("{places}, among what runs: no drive passes or starts there. Shorten a stroke or change a length.", places=together)
             pushed = any(is_pushed(judge, name) for name in place.running)
             found.setdefault(("", "dead points"), []).append(Verdict("dead points", False if pushed else None, text))
-        for name, limits in stroke_search.limits(place.motion).items():
-            if spans[name][0] < spans[name][1] or len(spans) == 1:
-                for is_behind, away, text in nearest_dead_points(place.plan, limits, spans[name]):
-                    nearest[name, is_behind] = min((away, text), nearest.get((name, is_behind), (away, text)))
-                for each in dead_point_verdicts(limits, spans[name], is_pushed(judge, name)):
-                    if not (together and each.rule == "dead points"):
-                        found.setdefault((name, each.rule), []).append(each)
+        moved = [name for name, (low, high) in spans.items() if low < high or len(spans) == 1]
+        for name, limits in stroke_search.limits(place.motion, moved).items():
+            for is_behind, away, text in nearest_dead_points(place.plan, limits, spans[name]):
+                nearest[name, is_behind] = min((away, text), nearest.get((name, is_behind), (away, text)))
+            for each in dead_point_verdicts(limits, spans[name], is_pushed(judge, name)):
+                if not (together and each.rule == "dead points"):
+                    found.setdefault((name, each.rule), []).append(each)
     told = [each for known in found.values() for each in dict.fromkeys(known)]
     clear = [(name, text) for (name, _), (_, text) in nearest.items() if not {(name, "dead points"), ("", "dead points")} & found.keys()]
     if not clear:

@@ -8,7 +8,7 @@ the way.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -63,13 +63,13 @@ AGAIN = 1e-6
 """Poses whose points are so near to each other, compared with the linkage, are one, as after a full turn."""
 
 
-def limits(motion: MotionLike) -> Limits:
-    """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
+def limits(motion: MotionLike, along: Iterable[str] | None = None) -> Limits:
+    """Return the limits along every stroke of one design, or `along` some; other strokes are held at the motion's first values."""
     title, shape = motion.plan.title, motion._design_shape
     ensure(not motion._design_shape, f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
     check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
-    lines = {name: StrokeLine(motion, name, held) for name in motion.strokes}
+    lines = {name: StrokeLine(motion, name, held) for name in (motion.strokes if along is None else along)}
     return Limits({name: recalled(motion, ("limits", name), line.stroke_limits, of_places=True) for name, line in lines.items()})
 
 

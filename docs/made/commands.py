@@ -45,9 +45,6 @@ def printed(*words: str) -> str:
 
 def names_in(overview: str) -> list[str]:
     """Return the commands that the overview lists, in its order."""
-    inside = re.search(r"\{([\w,\s]+)\}", overview)
-    if inside:
-        return [name.strip() for name in inside[1].split(",")]
     return list(dict.fromkeys(re.findall(r"^    (\w+)(?: {2,}\S|$)", overview, re.MULTILINE)))
 
 

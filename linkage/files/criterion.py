@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import ast
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from inspect import signature
 from types import MappingProxyType
 from typing import Any, ClassVar
@@ -21,14 +21,13 @@ from .. import plugins
 from ..errors import DefinitionError, ensure, unknown
 from ..mechanism import Mechanism
 from ..motion import Condition, Measure, Request, at, condition, gap, integral, least, measures, most, ratio, reachable, transmission, worst
-from ..motion.measures import KINDS, FixedNumber, MeasureKind, Worst, strokes_behind, words_of
+from ..motion.measures import KINDS, Constraint, FixedNumber, MeasureKind, Worst, strokes_behind, words_of
 from ..motion.requests import Combined
 from ..plugins import Plugins
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
 from ..quantities.quantity import OPERATORS
 from ..statics import acceleration, axle_load, drive_force, dynamic_factor, pin_force, slipping, speed
 from ..steps import Point
-from ..study.problem import NOWHERE, Problem
 from ..units import UNITS, Amount
 from .expression import NUMERIC, Grammar, Token, constant, finite
 from .source import Keywords
@@ -91,8 +90,15 @@ def measure_said(text: object, machine: Mechanism, over: Mapping[str, object] | 
     if is_number(found) or isinstance(found, FixedNumber):
         raise DefinitionError(f"{text!r} is the same for every design; write a measure of the machine, such as least(...), or an output.")
     measure = measure_or_constant(found, machine)
-    Problem(machine, [measure], [], NOWHERE, over=over)  # which refuses what a machine has not: an unknown point, no such stroke
+    refuse_unknown(machine, [measure], over=over)
     return measure
+
+
+def refuse_unknown(machine: Mechanism, asked: Sequence[Measure], limits: Sequence[Constraint] = (), over: Any = None) -> None:
+    """Raise DefinitionError for what a machine has not, such as an unknown point or stroke."""
+    from ..study.problem import NOWHERE, Problem  # tables of results read the names above and need no study
+
+    Problem(machine, asked, limits, NOWHERE, over=over)
 
 
 def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
@@ -105,7 +111,7 @@ def condition_said(text: object, machine: Mechanism, over: Mapping[str, object] 
     """Return the condition on this machine that a text says; DefinitionError for anything else."""
     found: Condition = criterion_of(text, machine)
     ensure(isinstance(found, Condition), f"{text!r}: {CriterionParser.words(found)} says no limit; write one such as most(...) <= 8 deg.")
-    Problem(machine, [], [*found.constraints(machine)], NOWHERE, over=over)
+    refuse_unknown(machine, [], [*found.constraints(machine)], over)
     return found
 
 
@@ -114,7 +120,7 @@ def quantity_said(text: object, machine: Mechanism) -> Any:
     found = criterion_of(text, machine)
     if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
         raise DefinitionError(f"{text!r} has no value at every pose; write an output such as tilt, or a request such as drive_force().")
-    Problem(machine, [most(found)], [], NOWHERE)
+    refuse_unknown(machine, [most(found)])
     measures.traced(machine.plan, found)  # which refuses what has two components
     return found
 

@@ -259,8 +259,7 @@ class ForceLines:
         situation = Acting([name], case=self.case)
         acting = applied_loads(self._somewhere(), situation, AT_REST)
         for place, thrust in enumerate(acting.thrusts):
-            value = given_thrust(situation, place)
-            self._thrusts[thrust.name] = cast(Term, self.given(f"T_{thrust.name}", value, "N"))
+            self._thrusts[thrust.name] = cast(Term, self.given(f"T_{thrust.name}", given_thrust(situation, place), "N"))
             self._members[thrust.name] = thrust.member
         for place, load in enumerate(acting.loads):
             point = load.point

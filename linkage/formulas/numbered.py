@@ -618,7 +618,8 @@ def compiled_lines(
     """
     written = [(explicit(left), explicit(right)) for left, right in lines]
     symbols = set().union(*(each.free_symbols for _, right in written for each in right), *(left for left, _ in written))
-    plain = {symbol: sympy.Symbol(f"v{place:05d}") for place, symbol in enumerate(sorted(symbols, key=str))}  # keeps the order of sums
+    # The order of sums stays. Real ones tell SymPy at once what it asks of each power.
+    plain = {symbol: sympy.Symbol(f"v{place:05d}", real=True) for place, symbol in enumerate(sorted(symbols, key=str))}
     assigned: list[tuple[sympy.Symbol, sympy.Expr]] = []
     needed: dict[sympy.Symbol, sympy.Symbol] = {}
     made: set[sympy.Symbol] = set()

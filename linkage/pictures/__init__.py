@@ -1,23 +1,23 @@
 """Pictures: a mechanism at a pose, at its end positions, in motion, and curves of results over the stroke.
 
-What draws is loaded when it is first asked for: it brings Matplotlib, of which a live page needs nothing.
+What draws and the live page are loaded when they are first asked for: one brings Matplotlib, the other studies and syntheses.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from .browser import page, page_html
 from .shown_values import Limit
 
 if TYPE_CHECKING:
+    from .browser import page, page_html
     from .by_kind import draw, plot
     from .drawing import Drawing, mechanism
     from .film import animate
     from .tolerances import plot_bands, plot_tornado, plot_zone
 
 _ROOMS = {"draw": "by_kind", "plot": "by_kind", "Drawing": "drawing", "mechanism": "drawing", "animate": "film"}
-_ROOMS |= dict.fromkeys(("plot_bands", "plot_tornado", "plot_zone"), "tolerances")
-__all__ = ["Limit", "page", "page_html", *_ROOMS]
+_ROOMS |= dict.fromkeys(("page", "page_html"), "browser") | dict.fromkeys(("plot_bands", "plot_tornado", "plot_zone"), "tolerances")
+__all__ = ["Limit", *_ROOMS]
 
 
 def __getattr__(name: str) -> object:

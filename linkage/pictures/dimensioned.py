@@ -113,8 +113,7 @@ class AngleArc:
     @property
     def middle(self) -> FloatArray:
         """Where its text stands."""
-        way = 0.5 * (self.start + self.end)
-        return np.asarray(self.corner + self.radius * polar(way))
+        return np.asarray(self.corner + self.radius * polar(0.5 * (self.start + self.end)))
 
     @cached_property
     def covered(self) -> FloatArray:

@@ -41,8 +41,7 @@ def plot_field(field: WorkingField) -> Figure:
     colours = {name: style.mixed(style.BODIES[place % len(style.BODIES)], style.PAPER, 0.45) for place, name in enumerate(text.letters)}
     bold: Keywords = {"fontsize": style.SMALL, "fontweight": "bold", "color": style.INK, "va": "center"}
     for column, n in enumerate(across):
-        at = LEFT + (column + 0.5) * CELL[0]
-        ax.text(at, TOP - 0.14, text.length_text(float(field.x[n])), ha="center", **bold)
+        ax.text(LEFT + (column + 0.5) * CELL[0], TOP - 0.14, text.length_text(float(field.x[n])), ha="center", **bold)
     for row, k in enumerate(down):
         level = TOP + (row + 0.5) * CELL[1]
         ax.text(LEFT - 0.1, level, text.length_text(float(field.y[k])), ha="right", **bold)

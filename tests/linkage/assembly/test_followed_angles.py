@@ -384,6 +384,15 @@ def test_text_and_groups_are_refused_by_name():
     with pytest.raises(DefinitionError, match=r"angle\(C, B\) is used in another way than .* the pins F, G, H hang on it"):
         type("Grouped", (DragLink,), GROUP)
 
+    class Fixed(Mechanism):
+        """A crank that is turned against two fixed points: their direction is not followed, whatever hangs on it."""
+
+        phi = Stroke(0.0, 1.0)
+        A, O, D = Ground(0.0, 0.0), Ground(1.0, 0.2), Ground(1.2, 0.3)
+        E = Crank(D, DE=0.2, angle=phi + 0.5 * angle(A, O))
+
+    assert np.isfinite(type("Held", (Fixed,), GROUP)().at(phi=0.0)["F"]).all()
+
 
 GROUP = {
     "U": Ground(1.6, 0.3),

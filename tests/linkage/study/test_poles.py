@@ -7,6 +7,7 @@ import pytest
 
 from linkage import LEFT, Crank, Dyad, Ground, Mechanism, Stroke, StudyError, at, least, most, optimise, x, y
 from linkage.study import settings_for, zone
+from linkage.study.settings import no_setting_words
 from tests.for_all import first_daily
 
 
@@ -55,6 +56,16 @@ def test_a_pole_within_the_stroke_of_a_part_of_the_box_ends_soon_in_words():
             assert "has no value: it is divided by y(D)" in best.edges[0]
             assert np.max(best.machine.sweep(2001).y("D")) < HEIGHT - 1e-4
             assert best.value == pytest.approx(np.max(best.machine.sweep(2001)[quantity]), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("values", "ends"),
+    [([1, 2, 1e7, -9, -3], "-inf to inf"), ([-3, -9, 1e7, 2, 1], "-inf to inf"), ([1, 2, 1e7, 9, 3], "1 to inf"), ([1, 2, 4], "1 to 4")],
+)
+def test_where_no_setting_is_found_the_ends_are_those_on_either_side_of_a_pole(values, ends):
+    at = np.linspace(0.1, 0.5, len(values))
+    text = no_setting_words({"name": "OB", "what": "turns", "target": "0"}, "m", "", at, np.array(values, float))
+    assert text.endswith(f"where turns goes from {ends}.")
 
 
 @pytest.mark.slow

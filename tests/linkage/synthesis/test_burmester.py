@@ -278,6 +278,7 @@ def test_the_picture_has_both_curves_the_poses_and_the_region():
     [
         (POSES[:2], None, "three to five"),
         ([*POSES[:3], POSES[0]], None, "poses 1 and 4 are the same"),
+        ([*POSES[:3], np.add(POSES[0], 1e-13)], None, "poses 1 and 4 are the same"),
         ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], None, "do not turn"),
         (POSES, [(0, 0), (1, 1)], "burmester.region="),
         ([(0, 0), (1, 1), (2, 0)], None, "finite rows .x, y, angle."),

@@ -134,6 +134,15 @@ def test_the_drive_of_a_cylinder_beside_a_tank_is_its_thrust_in_the_equations_to
     assert "T_ram" not in next(text for text in str(equations(structure, forces=True)).splitlines() if "Q_S =" in text)
 
 
+def test_the_thrust_of_a_line_on_gas_is_that_of_its_equations():
+    gas = AccumulatorBlock([Accumulator(volume=20 * litre, charge=60 * bar)])
+    machine = made(line=OilLine("ram.piston_side", gas, charge_pressure=90 * bar, at=0.0))()
+    motion, values = machine.at(S=0.1), equations(machine, forces=True).values(at=dict(S=0.1))
+    assert_allclose(values["p_ram"], motion[pressure("line")], rtol=1e-9)
+    assert_allclose(values["T_ram"], machine.plan.members["ram"].thrust(motion), rtol=1e-9)
+    assert_allclose(values["Q_S"], driving_force(motion), rtol=1e-9)
+
+
 class Upright(Mechanism):
     """A force that pushes a guided ram in, and pulls it out."""
 

@@ -267,7 +267,9 @@ def test_a_slack_rope_fails_like_a_contact_that_lifts_off():
     assert float(worst.value) < 0.0
     assert any("chain goes slack" in each for each in pin_forces(Pushed().at(**STROKES)).remarks)
     assert all("slack" not in str(each) for each in Hoist().verdicts())
-    assert any(str(each).startswith("ok   tension: it stays taut") for each in Hoist().verdicts())
+    for kept in (Hoist(), Hoist(**{"load.mass": 0.01})):  # a tenth of a newton holds as well
+        (taut,) = (each for each in kept.verdicts() if str(each).startswith("ok   tension: it stays taut"))
+        assert taut.answer.ok
 
 
 def test_a_rope_that_leaves_its_pulley_is_told():

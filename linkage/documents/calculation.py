@@ -97,9 +97,11 @@ def calculation_blocks(found: FilledEquations, pose_words: str, is_timed: bool) 
         if given:
             names = ", ".join(f"R_{name}" for name in given)
             yield said("{names} hang on how the supports give way: they are given numbers.", names=names)
-    if listing.left_out:
-        yield said("Left out of the equations: the friction of {names}.", names=", ".join(listing.left_out))
+    told = not listing.left_out
     for each in found.lines:
         if each.heading:
             yield each.heading
+        if not told and each.steps[0].startswith("Q"):  # the first that would have it
+            yield said("Left out of the equations: the friction of {names}.", names=", ".join(listing.left_out))
+            told = True
         yield Equality(each.number, each.steps)

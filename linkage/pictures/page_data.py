@@ -132,7 +132,7 @@ class PageRequests:
         facts = [(each.ok is False, fact_data(self, each)) for each in told or () if each.member]
         ranked = sorted(facts, key=lambda fact: (fact[0], *fact[1][3:]), reverse=True)  # as the list on the page has them
         members = ({member, *needs(self.plan.members[member])} for _, (member, *_) in ranked)
-        own = ([each for each in shown if among & {*each.split()}] for among in members)
+        own = ([each for each in shown if among & {*re.findall(r"[\w.]+", each)}] for among in members)
         return next(filter(None, own), shown)[-1]
 
     def _limits(self, limit: Any) -> tuple[Limits, Limits]:

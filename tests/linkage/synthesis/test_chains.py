@@ -101,6 +101,11 @@ def test_every_machine_of_eight_links():
                 check_machine(inversion, crank, random)
 
 
+def test_each_crank_of_an_inversion_has_a_class_of_its_own_name():
+    inversion = next(each for each in chains(6)[0].inversions if len(each.cranks) > 1)
+    assert len({type(inversion.machine(crank)).__name__ for crank in inversion.cranks}) == len(inversion.cranks)
+
+
 def test_dimensions_are_those_of_a_design():
     """A four-bar of the chain is the shipped one, length by length, or its mirror image where the drawing has it on the other side."""
     known, phi = FourBar(), np.linspace(0.0, 2.0 * np.pi, 13)

@@ -9,11 +9,11 @@ from itertools import permutations
 from math import atan2, degrees, dist, floor, isfinite, log10, pi, radians, remainder
 from typing import Any
 
-from ..errors import DefinitionError, FileError, cited, ensure, is_listed, is_number
+from ..errors import DefinitionError, FileError, cited, ensure, is_listed, is_number, quoted
 from ..files import from_dict, to_toml
 from ..files.design import in_unit
 from ..mechanism import Mechanism
-from ..quantities import Member, joined_names
+from ..quantities import joined_names
 from ..quantities.quantity import plain
 from ..units import show
 
@@ -275,11 +275,15 @@ class MachineSketch:
 
     def to_python(self) -> str:
         """Return the machine as a Python file, a class of the parts-list form with the same numbers. Errors are those of `to_class`."""
-        members = {name: each for name, each in vars(self.to_class()).items() if isinstance(each, Member)}
+        tables = self.tables()
         lines = [f"class {self.name}(Mechanism):", f'    """{self.name}, as it is drawn."""', *(f"    # {note}" for note in self.notes), ""]
-        lines += [f"    {name} = {each}" for name, each in members.items()]
-        imports = ["from hydraulics import Cylinder"] * any(drive.bore is not None for drive in self.drives.values())
-        return "\n".join([*imports, "from linkage import *", "", "", *lines]) + "\n"
+        lines += [f"    {name} = Stroke({python_number(low)}, {python_number(high)})" for name, (low, high) in tables["strokes"].items()]
+        lines += [f"    sketch = drawn({', '.join(f'{name}={value!r}' for name, value in tables['drawn']['sketch'].items())})", ""]
+        lines += [f"    {name} = Ground({x!r}, {y!r})" for name, (x, y) in tables.get("ground", {}).items()]
+        for section in ("points", "pins", "links", "guides", "slides", "hydraulics", "loads", "surroundings"):
+            lines += [f"    {name} = {python_member(section, table)}" for name, table in tables.get(section, {}).items()]
+        imports = ["from hydraulics import Cylinder"] * ("hydraulics" in tables) + ["from linkage import *"]
+        return "\n".join([*imports, "", "", *lines]) + "\n"
 
     # -- round numbers -------------------------------------------------------------------------------------
 
@@ -383,3 +387,36 @@ def plain_entry(entry: object) -> Any:
     if isinstance(entry, dict):
         return {name: plain_entry(each) for name, each in entry.items()}
     return [*map(plain_entry, entry)] if is_listed(entry) else plain(entry)
+
+
+def python_number(value: float | str) -> str:
+    """Return a number as Python has it, `360 * deg` for the text `360 deg`."""
+    return value.replace(" ", " * ") if isinstance(value, str) else repr(float(value))
+
+
+def python_member(section: str, table: Mapping[str, Any]) -> str:
+    """Return the call that makes a member of a section."""
+    given = {name: value for name, value in table.items() if name not in ("points", "from", "to", "point", "guide", "at", "Crank")}
+    words = [f"{name}={value.replace(' deg', ' * deg') if isinstance(value, str) else repr(value)}" for name, value in given.items()]
+    at = [f"at=({', '.join(map(repr, table['at']))})"] if "at" in table else []
+    match section:
+        case "points":
+            return f"Crank({', '.join([table['Crank'], *at, *words])})"
+        case "pins":
+            return f"Pin({at[0]})"
+        case "links":
+            return f"Link({', '.join([quoted(table['points']), *words])})"
+        case "surroundings":
+            carried = f", on={quoted(table['on'])}" if "on" in table else ""
+            return f"Outline({table['points']!r}{carried})"
+        case "guides":
+            given_ends = (table[name] for name in ("from", "to") if name in table)
+            ends = [quoted(end) if isinstance(end, str) else repr((*end,)) for end in given_ends]
+            return f"Guide({', '.join([*ends, *words])})"
+        case "hydraulics":
+            return f"Cylinder({', '.join(table['Cylinder'])}, bore={table['bore']!r}, rod={table['rod']!r})"
+        case "loads" if "Force" in table:
+            return f"Force({table['Force']}, {(*table['vector'],)})"
+        case "loads":
+            return f"Weight({table['Weight']}, mass={table['mass']!r})"
+    return f"Slide({quoted(table['point'])}, {table['guide']})"

@@ -334,8 +334,8 @@ class Step(Point):
         words += written_labels(self.labels, self.fitting() if self.X else ())
         if self.side is not None:
             words.append(f"side={self.side}")
-        places = {"near": self.near, "at": None if self.side else self.drawn_at}  # one that is settled stands where its lengths put it
-        words += [f"{name}=({place[0]!r}, {place[1]!r})" for name, place in places.items() if place is not None]
+        if self.near is not None:
+            words.append(f"near=({self.near[0]!r}, {self.near[1]!r})")
         given = ((name, getattr(self, name), "angle" if name in self.radians else "") for name in self.further)
         return words + [f"{name}={source_text(value, 0, kind)}" for name, value, kind in given if kind or value.constant != 0.0]
 

@@ -349,8 +349,7 @@ def test_plates_of_a_drawing_are_outlines_of_their_links_and_one_of_the_frame_fi
     along = complex(40, 60) / abs(complex(40, 60))
     drawn = [1e3 * complex(*corner) * along for corner in found.outlines["plate_2"][1]]
     assert np.allclose(drawn, [complex(*corner) for corner in arm], atol=2e-3)
-    files = put(tmp_path, "plates.toml", found.to_toml()), put(tmp_path, "plates.py", found.to_python())
-    for kind in (found.to_class(), *map(find, files)):
+    for kind in (found.to_class(), find(put(tmp_path, "plates.toml", found.to_toml())), find(put(tmp_path, "plates.py", found.to_python()))):
         assert [name for name in kind.plan.members if name.startswith("plate")] == ["plate", "plate_2", "plate_3", "plate_4"]
         assert kind.plan.members["plate_2"].on == ("O", "A")
     assert found.rounded(0.001).outlines == found.outlines

@@ -222,7 +222,7 @@ def posts():
     lines = {"pump": None, "supply": Pump(150 * bar, mechanical_efficiency=0.7), "valve": Relief(160 * bar)}
     lifting = {"ram": Cylinder("O", "P", bore=100 * mm, rod=45 * mm), "back": OilLine("ram.rod_side", Tank(4 * bar))}
     lined = type("Lined", (Post,), lines | lifting | {"line": OilLine("ram.piston_side", "supply", "valve")})
-    yield lined, load / 0.7, 0.045, 2.8, 160 * bar * area
+    yield lined, load / 0.7, 0.045, 2.8, 160 * bar * area - 4 * bar * (area - math.pi / 4 * 0.045**2)
     joined = {"ram": Cylinder("O", "P", bore=100 * mm, rod=45 * mm), "line": OilLine("ram.piston_side", "ram.rod_side", "supply", "valve")}
     yield type("Joined", (Post,), lines | joined), load / 0.7, 0.045, 2.8, 160 * bar * math.pi / 4 * 0.045**2
     stages = Telescope("O", "P", bores=[100 * mm, 60 * mm], strokes=[0.7, 0.6], closed=1.55)

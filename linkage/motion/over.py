@@ -59,7 +59,7 @@ class Over(Member):
     shape: str
     strokes: Mapping[str, Any]
     only: tuple[PoseCondition, ...]
-    _cases: tuple[Reference, ...] | None
+    _cases: tuple[str | LoadCase, ...] | None
     lost: str
     time: tuple[float, ...] | None
     """The instants of a path in time [s]: of each place, or those at which it begins and ends; None of any other."""

@@ -349,7 +349,8 @@ def test_plates_of_a_drawing_are_outlines_of_their_links_and_one_of_the_frame_fi
     along = complex(40, 60) / abs(complex(40, 60))
     drawn = [1e3 * complex(*corner) * along for corner in found.outlines["plate_2"][1]]
     assert np.allclose(drawn, [complex(*corner) for corner in arm], atol=2e-3)
-    for kind in (found.to_class(), find(put(tmp_path, "plates.toml", found.to_toml())), find(put(tmp_path, "plates.py", found.to_python()))):
+    written = {"plates.toml": found.to_toml(), "plates.py": found.to_python()}
+    for kind in (found.to_class(), *(find(put(tmp_path, name, text)) for name, text in written.items())):
         assert [name for name in kind.plan.members if name.startswith("plate")] == ["plate", "plate_2", "plate_3", "plate_4"]
         assert kind.plan.members["plate_2"].on == ("O", "A")
     assert found.rounded(0.001).outlines == found.outlines

@@ -117,6 +117,13 @@ class PageRequests:
         self.by_name: dict[str, RequestLike] = {}
         self._ask()
 
+    @cached_property
+    def english_verdicts(self) -> tuple[list[tuple[int, str, str]], list[Verdict] | None, set[str]]:
+        """The verdicts in English, as `verdicts_told` has them, and the units that their sentences show."""
+        with units_shown() as shown_units:
+            rows, verdicts = verdicts_told("en", self.machine, self.judge, self.along)
+        return rows, verdicts, shown_units
+
     def _column(self, name: str | None) -> str:
         """Return the column shown first: the one named, the one the machine is about, the last of the cylinder whose verdict is worst."""
         if name is None and self.featured.column in self.columns:
@@ -128,7 +135,7 @@ class PageRequests:
         moving = [each for each, (column, _, why) in self.columns.items() if each not in strokes and is_changing(column.drawn)]
         alive = [each for each in moving if not self.columns[each][2]]
         shown = alive or moving or list(self.columns)
-        _, told = verdicts_told("en", self.machine, self.judge, self.along)
+        _, told, _ = self.english_verdicts
         facts = [(each.ok is False, fact_data(self, each)) for each in told or () if each.member]
         ranked = sorted(facts, key=lambda fact: (fact[0], *fact[1][3:]), reverse=True)  # as the list on the page has them
         members = ({member, *needs(self.plan.members[member])} for _, (member, *_) in ranked)
@@ -671,11 +678,10 @@ def verdicts_shown(requests: PageRequests) -> PageData:
     """
     told = partial(verdicts_told, machine=requests.machine, judge=requests.judge, along=requests.along)
     machine, found = requests.machine, dict[str, list[Any]]()
-    with units_shown() as shown_units:
-        english, verdicts = told("en")
-        russian, _ = told("ru")
+    english, verdicts, shown_units = requests.english_verdicts
+    russian, _ = told("ru")
     russian = russian if len(russian) == len(english) else english
-    shown_units |= {"mm", *(stroke_display_unit(machine.plan, name, "mm") for name in machine.strokes)}  # of places that were told before
+    shown_units = shown_units | {"mm", *(stroke_display_unit(machine.plan, name, "mm") for name in machine.strokes)}  # told before
     with language("ru"):
         values = values_in({translated(unit) for unit in UNITS})
     for name in SYSTEMS:

@@ -183,18 +183,23 @@ class System:
             elif strut.known is None and strut.quantity is not None and self.follows(strut.quantity, stroke):
                 yield self.ratio(strut.quantity, stroke), self.thrust(strut)
         for contact in structure.contacts:
-            drives, behind = list(structure.drives(contact)), structure.plan.reaches(contact.point)
-            for letter in dict.fromkeys(letter for _, letter, _ in drives if contact.is_curve and letter != "c"):
-                others = [name for name in structure.plan.moving if name in behind and name != contact.point]
-                what = f"{contact.owner} is driven along a line of the frame, but its place depends on {', '.join(others)}, which move"
-                remedy = "its force is not provided. Say by= the body that the line belongs to"
-                ensure(not others, f"{structure.plan.title}: {what}; {remedy}.")
-                if stroke in behind:
-                    way = (force_direction(contact, letter, poses) * poses.rate(contact.point, stroke)).sum(axis=0)
-                    yield way, self.unknown(contact, letter, 1.0)
-            for quantity, letter, sign in drives:
-                if (letter == "c" or not contact.is_curve) and self.follows(quantity, stroke):
-                    yield self.ratio(quantity, stroke), self.unknown(contact, letter, sign)
+            yield from self.driven(contact, stroke)
+
+    def driven(self, contact: Contact, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:
+        """Yield how the quantities that a joint drives follow a stroke, with their forces; see `drives`."""
+        structure, poses = self.structure, self.poses
+        drives, behind = list(structure.drives(contact)), structure.plan.reaches(contact.point)
+        for letter in dict.fromkeys(letter for _, letter, _ in drives if contact.is_curve and letter != "c"):
+            others = [name for name in structure.plan.moving if name in behind and name != contact.point]
+            what = f"{contact.owner} is driven along a line of the frame, but its place depends on {', '.join(others)}, which move"
+            remedy = "its force is not provided. Say by= the body that the line belongs to"
+            ensure(not others, f"{structure.plan.title}: {what}; {remedy}.")
+            if stroke in behind:
+                way = (force_direction(contact, letter, poses) * poses.rate(contact.point, stroke)).sum(axis=0)
+                yield way, self.unknown(contact, letter, 1.0)
+        for quantity, letter, sign in drives:
+            if (letter == "c" or not contact.is_curve) and self.follows(quantity, stroke):
+                yield self.ratio(quantity, stroke), self.unknown(contact, letter, sign)
 
     def follows(self, quantity: Quantity, stroke: str) -> bool:
         """Return whether a driven quantity follows a stroke; DefinitionError where it follows moving points as well."""
@@ -259,7 +264,18 @@ class System:
             (first, own, given), *others = parts
             for form, area, its in others:  # by their areas, but for what other lines give
                 found.append((form.multiplied(own).plus(first.multiplied(-1.0 * area)), its * own - given * area))
-        return found + list(self.tied())
+        return [*found, *self.geared(), *self.tied()]
+
+    def geared(self) -> Iterator[tuple[LinearForm, FloatArray]]:
+        """Yield the equations of couples in gears: those of a crank and the bodies it follows, and of cranks on one stroke, do no work."""
+        poses = self.poses
+        for gear in self.structure.gears:
+            factors = [poses.flattened(poses.motion._placed.value(each)) ** power for power, each in gear.factors]
+            own = self.unknown(gear.crank, "c", 1.0).multiplied(reduce(np.multiply, factors, poses.zeros() + gear.sign))
+            yield self.unknown(gear.contact, "c", 1.0).plus(own), poses.zeros()
+        for stroke in sorted(set[str]().union(*self.structure.geared)):
+            forms = [force.multiplied(ratio) for each in self.structure.contacts for ratio, force in self.driven(each, stroke)]
+            yield reduce(LinearForm.plus, forms), poses.zeros()
 
     def given_thrust(self, member: TwoPoint) -> FloatArray:
         """Return the thrust (n,) that laws give a member, beside that of a line whose pressure answers."""

@@ -26,7 +26,7 @@ from .friction import CONTRACTS, JointFriction, PressingForces, by_iteration, co
 from .joints import Contact, Structure
 from .law_requests import TracedMotion, eliminated_forces
 from .poses import FlatPoses
-from .solution import PoseForces, Solution, assumed_joints, by_equations
+from .solution import PoseForces, Solution, assumed_joints, by_equations, structure_of
 
 PIECE = 1 << 13
 """Poses whose frictions are found at a time."""
@@ -36,7 +36,7 @@ def forces_at(poses: FlatPoses, applied: AppliedLoads, split: str = "refuse") ->
     """Return all forces at some poses: by the program, or where that does not say them by the equations read on arrays."""
     found, motion = None, poses.motion
     if split == "refuse" and isinstance(motion, Motion):
-        structure = Structure(poses.plan, applied.elements, applied.thrusts)
+        structure = structure_of(poses.plan, applied.elements, applied.thrusts)
         holders = structure.holders
         if not holders.changes_shares and not any(run.back for run in holders.reeved.values()):
             frictions = joint_frictions(structure, poses, applied.frictions, applied.rates) if applied.frictions else []
@@ -88,7 +88,7 @@ def traced_program(plan: Plan, applied: AppliedLoads, places: tuple[int, ...]) -
     loads = tuple(replace(each, force=force) for each, force in zip(applied.loads, parts, strict=True))
     thrusts = tuple(replace(each, thrust=motion.number(given("thrust", place))) for place, each in enumerate(applied.thrusts))
     acts = replace(applied, loads=loads, thrusts=thrusts)
-    structure, poses = Structure(plan, acts.elements, acts.thrusts), FlatPoses(motion, "")
+    structure, poses = structure_of(plan, acts.elements, acts.thrusts), FlatPoses(motion, "")
     inputs = [given("friction", place) for place in range(len(places))]
     contacts = [structure.contacts[index] for index in places]
     frictions = [JointFriction.of_unit(contact, poses) for contact in contacts]

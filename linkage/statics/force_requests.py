@@ -24,7 +24,7 @@ from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_
 from .joints import Contact, Structure
 from .law_requests import LawInPlan, LawRequest, TracedMotion, eliminated_forces, law_in_plan, once_in, request_text, situation_identity
 from .poses import AnyMotion, FlatPoses
-from .solution import Solution, assumed_joints, held_fault, held_in_case
+from .solution import Solution, assumed_joints, held_fault, held_in_case, structure_of
 from .work import by_work, stroke_force, without_held
 
 
@@ -158,7 +158,7 @@ class JointPart:
         if shared not in kept:  # the notes say that the joints hold what they are said to
             motion = held_in_case(motion, acting)
             applied = applied_loads(motion, acting, rates_in(motion, acting))
-            system, u = eliminated_forces(Structure(motion.plan, applied.elements, applied.thrusts), motion, applied)
+            system, u = eliminated_forces(structure_of(motion.plan, applied.elements, applied.thrusts), motion, applied)
             for each in assumed_joints(system.structure, system.poses):
                 motion.notes.assumed.setdefault(motion.node(each[0]), "its joints")
             kept[shared] = motion, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool))
@@ -178,7 +178,7 @@ def structure_in_plan(motion: TracedMotion, acting: Acting) -> tuple[Structure, 
         return cast("tuple[Structure, tuple[Hashable, ...]]", kept[key])
     motion = held_in_case(motion, acting)
     applied = applied_loads(motion, acting, rates_in(motion, acting))
-    structure = Structure(motion.plan, applied.elements, applied.thrusts)
+    structure = structure_of(motion.plan, applied.elements, applied.thrusts)
     loads = ((each.point, each.on, *(motion.node(part).number for part in each.force)) for each in applied.loads)
     thrusts = ((each.name, each.member.ends, motion.node(each.thrust).number) for each in applied.thrusts)
     struts = ((strut.name, strut.P, strut.Q) for strut in structure.struts)

@@ -18,7 +18,19 @@ from ..errors import DefinitionError, ensure, known_name, unknown
 from ..loads import ForceElement, Halves, Load, PinFriction, Push, TwoPoint
 from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
 from ..program import FloatArray
-from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Quantity, Where, body_name, joined_names, name_of, pinned, signed_terms
+from ..quantities import (
+    Angle,
+    Driven,
+    Joint,
+    JointSide,
+    Quantity,
+    Where,
+    body_name,
+    joined_names,
+    name_of,
+    pinned,
+    signed_terms,
+)
 from ..steps import Link, Point
 from ..vectors import Line
 from .applied import member_title
@@ -303,6 +315,16 @@ class Contact:
         return self.by == FRAME and not self.track and not self.joint.arm
 
 
+@dataclass(frozen=True, eq=False)
+class Gear:
+    """The couple on a body that a crank's angle is geared to: against the crank's own, `sign` and factors times it, each to a power."""
+
+    contact: Contact
+    crank: Contact
+    sign: float
+    factors: tuple[tuple[int, Quantity], ...]
+
+
 LETTERS = frozenset("xyntc")
 """What a joint may hold."""
 ORDER = {kind: place for place, kind in enumerate(("guide", "slider", "slot", "driven", "crank", "telescope", "upright"))}
@@ -312,10 +334,14 @@ ORDER = {kind: place for place, kind in enumerate(("guide", "slider", "slot", "d
 class Structure:
     """Bodies, lone pins and contacts of a plan. An index -1 is the frame; lone pins come after the bodies."""
 
-    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[Push] = ()) -> None:
+    def __init__(
+        self, plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[Push] = (), is_geared: bool = False
+    ) -> None:
         self.plan, self.thrusts, elements = plan, tuple(thrusts), tuple(elements)
+        self.gears: list[Gear] = []
         self.fixed = frame_points(plan)
         self.holders: Holders = holders_of(plan, elements)
+        self.geared = self.shared_strokes() if is_geared else set()
         bodies, self.struts, self.pairs = free_bodies(plan, self.holders, thrusts)
         sliding = dict.fromkeys((joint.point, plan.track(joint)) for _, joint in plan.joints if joint.kind == "guide")
         guides, joined = Counter(point for point, _ in sliding), Counter(point for body in bodies for point in body.points)
@@ -355,9 +381,15 @@ class Structure:
                 kind = "guide"
             if kind == "guide" and 0 <= on < len(self.blocks):
                 kind, holds = "slider", holds + "c"
-            if joint.by == FRAME_SIDE and (base := measured_from(self.plan, joint, name)) is not None:
-                by = self.carrier(*base, name)
-            yield Contact(kind, joint.point, on, by, holds, joint, name, track)
+            turned = list(geared_to(self.plan, joint, name)) if "c" in holds else []
+            if len(turned) == 1 and turned[0][1:] == (1.0, ()):
+                by = self.carrier(*turned.pop()[0], name)
+            found = Contact(kind, joint.point, on, by, holds, joint, name, track)
+            yield found
+            for ends, sign, factors in turned:
+                gear = Joint("gear", ends[0], JointSide(ends), joint.by, "c")
+                self.gears.append(Gear(Contact("gear", ends[0], self.carrier(*ends, name), by, "c", gear, name), found, sign, factors))
+                yield self.gears[-1].contact
 
     def sliding_joints(self) -> Iterator[Contact]:
         """Yield the joints between the two bodies of a member: across and against turning, and along where such a member acts."""
@@ -390,29 +422,41 @@ class Structure:
 
     def left(self, owner: str, joint: Joint) -> str:
         """Return the directions a joint still holds when cylinders have taken over strokes."""
-        carrier = joint.by.points if joint.kind == "crank" else ()  # a part's own angle does not follow what moves the body it is on
-        strokes, given = {letter: set[str]() for letter in joint.holds}, set[str]()
-        for drive in joint.drives:
-            follows = self.plan.reaches(drive.quantity.name or drive.quantity, within=carrier)
-            given |= {drive.along} if self.holders.line_quantities & follows else set()
-            if drive.along:
-                strokes[drive.along] |= follows & set(self.plan.strokes)
-        gone = {letter: names for letter, names in strokes.items() if letter not in given and names and names <= self.holders.strokes_taken}
+        strokes, given = self.followed(joint)
+        gone = {letter: names for letter, names in strokes.items() if letter not in given and self.is_taken(names)}
+        gone = {letter: names for letter, names in gone.items() if frozenset(names) not in self.geared}
         taken = sorted(set().union(*gone.values()))
         if len(gone) > len(taken):
             what = f"{owner}.joints(): {' and '.join(gone)} are driven by {', '.join(taken)}, which a cylinder takes over"
             raise DefinitionError(f"{self.plan.title}: {what}; let one letter follow it, such as t along a line=, so that the other holds.")
         return "".join(letter for letter in joint.holds if letter not in gone and letter not in given)
 
+    def followed(self, joint: Joint) -> tuple[dict[str, set[str]], set[str]]:
+        """Return the strokes that each direction of a joint follows, but for what turns with moving bodies, and those that lines give."""
+        carrier = joint.by.points if joint.kind == "crank" else ()  # a part's own angle does not follow what moves the body it is on
+        strokes, given = {letter: set[str]() for letter in joint.holds}, set[str]()
+        for drive in joint.drives:
+            for _, term in own_terms(self.plan, drive):
+                follows = self.plan.reaches(term.name or term, within=carrier)
+                given |= {drive.along} if self.holders.line_quantities & follows else set()
+                if drive.along:
+                    strokes[drive.along] |= follows & set(self.plan.strokes)
+        return strokes, given
+
+    def is_taken(self, strokes: set[str]) -> bool:
+        """Return whether cylinders have taken over some strokes."""
+        return bool(strokes) and strokes <= self.holders.strokes_taken
+
+    def shared_strokes(self) -> set[frozenset[str]]:
+        """Return the strokes taken over that more joints follow than they are themselves, as geared cranks do."""
+        count = Counter(frozenset(names) for _, joint in self.plan.joints for names in self.followed(joint)[0].values())
+        return {names for names, joints in count.items() if self.is_taken({*names}) and joints > len(names)}
+
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
         """Yield the drives of a contact: the quantity, the letter of the force that is conjugate to it, and its sign."""
         for drive in contact.joint.drives:
             if drive.along in contact.holds and drive.along:
-                parts = [(1.0, drive.quantity)]
-                if drive.along == "c" and contact.joint.by == FRAME_SIDE:
-                    terms = signed_terms(drive.quantity, self.plan.members)
-                    parts = [(sign, term) for sign, term in terms if not follows_points(self.plan, term)]
-                yield from ((term, drive.along, drive.sign * sign) for sign, term in parts)
+                yield from ((term, drive.along, drive.sign * sign) for sign, term in own_terms(self.plan, drive))
 
     # -- who owns what -------------------------------------------------------------------------------------
 
@@ -539,25 +583,35 @@ class Structure:
         return place if place < len(self.own_names) - 1 else FRAME
 
 
-# What a turned joint's angle is measured from: the frame, or another body's direction.
+# What a turned joint's angle is measured from: the frame, other bodies' directions, or gears on them.
 
 
-def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | None:
-    """Return the two points whose direction a turned joint's angle is counted from; None where that is the frame.
+def own_terms(plan: Plan, drive: Driven) -> list[tuple[float, Quantity]]:
+    """Return the terms of a driven quantity with their signs, of an angle those which turn with no moving body."""
+    if drive.along != "c":
+        return [(1.0, drive.quantity)]
+    return [(sign, term) for sign, term in signed_terms(drive.quantity, plan.members) if not follows_points(plan, term)]
 
-    Raises DefinitionError for an angle that depends on moving points in another way: its torque has no one body to act against.
+
+def geared_to(plan: Plan, joint: Joint, owner: str) -> Iterator[tuple[tuple[str, str], float, tuple[tuple[int, Quantity], ...]]]:
+    """Yield the directions of moving bodies that a turned joint's angle follows: two points, a sign, factors with their powers.
+
+    Raises DefinitionError for an angle that depends on moving points in another way: its torque has no body to act against.
     """
     for drive in joint.drives:
         terms = signed_terms(drive.quantity, plan.members) if drive.along == "c" else ()
-        moving = [(sign, term) for sign, term in terms if follows_points(plan, term)]
-        if not moving:
-            continue
-        (sign, term), *others = moving
-        if others or sign < 0.0 or not isinstance(term, Angle):
-            what = "for forces its angle is counted from the frame or from one body, such as angle(A, B) + phi"
-            raise DefinitionError(f"{plan.title}: {owner} = {plan.members[owner]}: {what}; {drive.quantity} is neither.")
-        return name_of(term.P), name_of(term.Q)
-    return None
+        for sign, term in terms:
+            if not follows_points(plan, term):
+                continue
+            factors = list(plan.factors(term))
+            angles = [each for power, each in factors if power == 1 and isinstance(each, Angle)]
+            others = tuple((power, each) for power, each in factors if each not in angles)
+            if len(angles) != 1 or any(follows_points(plan, each) for _, each in others):
+                what = "for forces its angle is counted from the frame, from bodies or geared to them, such as angle(A, B) + phi"
+                remedy = f"or 180 * deg - angle(A, B) / 2; {drive.quantity} is neither."
+                raise DefinitionError(f"{plan.title}: {owner} = {plan.members[owner]}: {what} {remedy}")
+            (angle,) = angles
+            yield (name_of(angle.P), name_of(angle.Q)), sign * drive.sign * angle.axes.sign, others
 
 
 def follows_points(plan: Plan, quantity: Quantity) -> bool:

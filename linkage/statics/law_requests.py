@@ -31,7 +31,7 @@ from .friction import JointFriction
 from .holding import Levers, levers_of, nearness_of, settled, where_held
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses
-from .solution import Equilibrium, held_in_case, refuse_loose
+from .solution import Equilibrium, held_in_case, refuse_loose, structure_of
 
 Made = TypeVar("Made")
 
@@ -282,7 +282,7 @@ def eliminated_forces(
             poses = FlatPoses(sampled, "The joint forces")
         thrusts = tuple(replace(each, thrust=np.zeros(sampled.shape)) for each in applied.thrusts)
         if poses.count:
-            Equilibrium(System(Structure(plan, applied.elements, thrusts), poses, ())).check()
+            Equilibrium(System(structure_of(plan, applied.elements, thrusts), poses, ())).check()
     if found is None:
         raise DefinitionError(f"{plan.title}: the joints have more forces than equations, or less.")
     forces = [motion._array([each.unknowns()]) for each in ways if each is not None]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -111,7 +111,7 @@ def solved(system: System, split: str, senses: tuple[int, ...], start: int = 0) 
 
 def system_with_friction(poses: FlatPoses, applied: AppliedLoads) -> System:
     """Return the equations' system with its joints with friction."""
-    structure = Structure(poses.plan, applied.elements, applied.thrusts)
+    structure = structure_of(poses.plan, applied.elements, applied.thrusts)
     frictions = joint_frictions(structure, poses, applied.frictions, applied.rates) if applied.frictions else []
     return System(structure, poses, applied.loads, frictions)
 
@@ -451,10 +451,14 @@ def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, s
 
 @dataclass(frozen=True)
 class Looseness:
-    """The loose bodies while the drives are locked: their names and a sentence; empty where all are held."""
+    """The loose bodies while the drives are locked: their names and a sentence; empty where all are held.
+
+    `is_geared`: whether they are held since cranks that follow one stroke, which a cylinder takes over, are geared to each other.
+    """
 
     bodies: tuple[str, ...] = ()
     sentence: str = ""
+    is_geared: bool = False
 
 
 def looseness(plan: Plan) -> Looseness:
@@ -464,14 +468,22 @@ def looseness(plan: Plan) -> Looseness:
         with unwarned():
             try:
                 equations = locked_equations(sampled(plan))
+                geared = locked_equations(sampled(plan), is_geared=True) if equations is not None and equations.lacks else None
             except DefinitionError as error:  # no cylinder where none is wanted, or points that keep no place
                 return Looseness(sentence=str(error))
-            return Looseness() if equations is None or not equations.lacks else Looseness(tuple(equations.loose()), equations.loose_words())
+            if equations is None or not equations.lacks or (geared is not None and not geared.lacks):
+                return Looseness(is_geared=equations is not None and equations.lacks > 0)
+            return Looseness(tuple(equations.loose()), equations.loose_words())
 
     return plan.made(("looseness",), made)
 
 
-def locked_equations(motion: Motion) -> Equilibrium | None:
+def structure_of(plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[Push] = ()) -> Structure:
+    """Return the bodies and joints of a plan; cranks on a stroke that a cylinder takes over are geared where nothing else holds them."""
+    return Structure(plan, elements, thrusts, looseness(plan).is_geared)
+
+
+def locked_equations(motion: Motion, is_geared: bool = False) -> Equilibrium | None:
     """Return the equilibrium of bodies whose drives are locked; None where no pose is reached, or joint forces are not provided."""
     poses, elements = FlatPoses(motion, "The joint forces"), tuple(motion.plan.of_kind(ForceElement).values())
     if not poses.count or not motion.plan.moving:
@@ -481,7 +493,7 @@ def locked_equations(motion: Motion) -> Equilibrium | None:
     fed += [each for each in elements if isinstance(each, TwoPoint) and not each.holds]
     laws = [Push(each, np.zeros(motion.shape), member_title(each)) for each in fed]
     try:
-        return Equilibrium(System(Structure(motion.plan, elements, laws), poses, ()))
+        return Equilibrium(System(Structure(motion.plan, elements, laws, is_geared), poses, ()))
     except NotHeldError:
         raise
     except DefinitionError:

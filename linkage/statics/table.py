@@ -77,8 +77,8 @@ SMALL = 1e-3
 """A force [N] up to which it may be rounding; below 0.1 kN a larger one has three figures, as those of models and tools have."""
 WORDS = {
     "pin": noted("pin"), "guide": noted("guide"), "slot": noted("slot"), "driven": noted("driven point"), "crank": noted("crank"),
-    "slider": noted("slider"), "telescope": noted("telescope"), "upright": noted("upright"), "frictionless": noted("frictionless"),
-    "extending": noted("extending"), "retracting": noted("retracting"),
+    "slider": noted("slider"), "telescope": noted("telescope"), "upright": noted("upright"), "gear": noted("gear"),
+    "frictionless": noted("frictionless"), "extending": noted("extending"), "retracting": noted("retracting"),
 }  # fmt: skip
 """Kinds of joints and directions of motion, as the table's cells say them."""
 

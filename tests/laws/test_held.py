@@ -14,7 +14,9 @@ from linkage import (
     RIGHT,
     AssemblyError,
     CosineAngle,
+    Crank,
     DefinitionError,
+    Dimension,
     Dyad,
     Force,
     Ground,
@@ -33,6 +35,7 @@ from linkage import (
     Turn,
     Vector,
     Weight,
+    angle,
     around,
     distance,
     draw,
@@ -201,6 +204,71 @@ def test_a_picture_shows_the_loose_movement():
     assert [any(f"loose {way} {point}" in gid for gid in shown for way in (1, 2)) for point in "BCOA"] == [True, True, False, False]
     held = draw(AsMeant().at(S=0.1), freedom=True)
     assert any("Nothing is loose" in each.get_text() for each in held.findobj(lambda each: hasattr(each, "get_text")))
+
+
+def geared(u):
+    """A rocker geared to two arms by numbers of random sizes and signs, and a third arm to the crank, all moved by one cylinder."""
+
+    class Geared(Mechanism):
+        """Arms on gears."""
+
+        phi, gear = Stroke(20 * deg, 60 * deg), Dimension(u(0.4, 2.0) * np.sign(u(-1, 1)))
+        O, M, G, N, R = Ground(0, 0), Ground(0.5, u(-0.1, 0.1)), Ground(-0.3, -0.3), Ground(u(0, 1), u(0.5, 1)), Ground(-0.5, 0.6)
+        A = Crank(O, OA=0.2, angle=phi)
+        B = Dyad(A, M, AB=0.4, MB=0.3, side=LEFT)
+        C = Crank(N, NC=u(0.2, 0.5), angle=u(-3, 3) + gear * angle(M, B))
+        D = Crank(C, CD=u(0.2, 0.5), angle=u(0.4, 2) * angle(N, C) - u(-1, 1) * angle(A, B))
+        E = Crank(R, RE=u(0.2, 0.5), angle=u(-3, 3) - phi / 2)
+        ram = Cylinder(G, A, bore=63 * mm, rod=36 * mm)
+        on_B, on_C, on_D, on_E = Weight(B, mass=u(5, 50)), Weight(C, mass=u(5, 50)), Weight(D, mass=u(5, 50)), Weight(E, mass=u(5, 50))
+
+    return Geared
+
+
+@for_all("seed", range(3), slow=range(3, 100))
+def test_gears_carry_what_turns_with_a_cylinder_and_do_no_work(seed):
+    machine = geared(np.random.default_rng(seed).uniform)
+
+    class Carried(Mechanism):
+        """It on a body that turns, seen from behind."""
+
+        psi, Z = Stroke(0.0, 30 * deg), Ground(1.0, 1.0)
+        Y = Crank(Z, ZY=1.0, angle=psi)
+        part = Part(machine, on=(Z, Y), mirrored=True)
+
+    phi, psi = np.array([0.4, 0.6, 0.9]), np.array([0.0, 0.3, 0.5])
+    for whole, strokes, ram in ((machine(), {"phi": phi}, "ram"), (Carried(), {"psi": psi, "part.phi": phi}, "part.ram")):
+        found = pin_forces(whole.at(**strokes))
+        assert found.residual < 1e-12 and found.gap < 1e-12
+        last, moved, energy = [*strokes][-1], 1e-5, []
+        for step in (-moved, moved):
+            motion, ends = whole.at(**{**strokes, last: phi + step}), whole.plan.of_kind(Cylinder)[ram].ends
+            heights = ((each.mass, motion[each.point][1]) for each in whole.plan.of_kind(Weight).values())
+            energy.append((9.80665 * sum(mass * y for mass, y in heights), np.hypot(*(motion[ends[1]] - motion[ends[0]]))))
+        by_hand = (energy[1][0] - energy[0][0]) / (energy[1][1] - energy[0][1])
+        assert_allclose(whole.evaluate([thrust(ram)], **strokes)[0], by_hand, rtol=1e-6)
+
+
+def test_two_claws_on_gears_close_by_one_cylinder_between_them():
+    class Claws(Mechanism):
+        """Two claws."""
+
+        phi = Stroke(20 * deg, 60 * deg)
+        O, M = Ground(-0.2, 0.0), Ground(0.2, 0.0)
+        A, B = Crank(O, OA=0.5, angle=270 * deg - phi), Crank(M, MB=0.5, angle=270 * deg + phi)
+        K, L = OnLink(O, A, OK=0.25, AOK=60 * deg), OnLink(M, B, ML=0.25, BML=-60 * deg)
+        ram = Cylinder(K, L, bore=63 * mm, rod=36 * mm)
+        left = Weight(A, mass=100)
+
+    found = pin_forces(Claws().at(phi=40 * deg))
+    couples = [float(each.couple) for each in found.joints if each.kind == "crank"]
+    assert_allclose(couples, [-0.5 * 0.5 * np.sin(40 * deg) * 100 * 9.80665] * 2, rtol=1e-12)  # half goes to the other claw
+    parallel = type("Parallel", (Mechanism,), {
+        "phi": Stroke(20 * deg, 60 * deg), "O": Ground(0, 0), "M": Ground(0.4, 0), "G": Ground(0.1, -0.3),
+        "A": Crank("O", OA=0.3, angle="phi"), "B": Crank("M", MB=0.3, angle="phi"), "rod": Link("A B"),
+        "ram": Cylinder("G", "A", bore=50 * mm, rod=25 * mm), "load": Weight("B", mass=20),
+    })  # fmt: skip
+    assert not any(each.kind in ("crank", "gear") for each in pin_forces(parallel().sweep(3)).joints)  # its rod carries
 
 
 def test_parts_that_are_loose_are_named_with_their_part():

@@ -642,6 +642,8 @@ class LiftLine(Circuit):
     ) -> Array:  # fmt: skip
         """Return the same, NaN where nothing limits it; by one `limit` alone: the number of a member's condition, else the pump's."""
         require_poses(motion)
+        if isinstance(motion, Motion):
+            motion._refuse_part(f"the capacity at {point}")
         self.check_pump(motion.plan)
         proper_share(share)
         unit = pull_direction(along)

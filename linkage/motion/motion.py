@@ -32,7 +32,7 @@ from .instants import Instants
 from .limits import Limits, no_joint, refuse_at, span_text, stroke_unit, where_words
 from .over import Over, with_strokes
 from .poles import body_points, body_rates, pole_of, whole_body
-from .requests import Request, RequestLike, Value, as_they_run, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
+from .requests import Request, RequestLike, Trait, Value, as_they_run, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
 from .stroke_search import Interruption
 from .strokes import check_any, checked_name, checked_rate, order_of, rate_values, rates_of
 
@@ -171,6 +171,7 @@ class Motion(Shown):
 
         DefinitionError where each design of a batch has strokes of its own: there is no one place to look at.
         """
+        self._refuse_part("what is judged")
         if self._over is not None:
             return self._over
         if self._grid.per_design and self._design_shape:
@@ -291,8 +292,16 @@ class Motion(Shown):
         whole, part = self._held
         found = whole.plan.members.get(f"{part}.{member.name}")
         if not isinstance(found, type(member)):
-            raise DefinitionError(f"{whole.plan.title}: {part}.{member.name} was left out, so that there is no force of it.")
+            what = "was left out" if found is None else f"is {found}"
+            raise DefinitionError(f"{whole.plan.title}: {part}.{member.name} {what}, so that there is no force of it.")
         return whole, found
+
+    def _refuse_part(self, what: str) -> None:
+        """Raise DefinitionError where this motion is read as that of a part: what hangs on forces is asked of the whole."""
+        if self._held is not None:
+            whole, part = self._held
+            said = f"{what} of the part {part} hangs on forces, which are those of the whole"
+            raise DefinitionError(f"{whole.plan.title}: {said}; ask the whole's motion, with names such as {part}.{next(iter(self.plan.points))}.")
 
     @property
     def _machine_motion(self) -> Motion:
@@ -739,6 +748,8 @@ class Motion(Shown):
             return at_rates.gradient(of, wrt)
         (of,) = as_they_run([of], bool(self.accelerations), self.time is not None) if self.rates else [of]
         what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
+        if Trait.OF_FORCES in what.traits:
+            self._refuse_part(f"the gradient of {of}")
         names, signs = tuple(name for name, _ in dimensions), np.tile([float(sign) for _, sign in dimensions], what.rows)
         kernel, touched = plan.made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))
         switches = grid.full(kernel(grid.flat).values) if touched else ()
@@ -830,6 +841,10 @@ class Motion(Shown):
         except (TypeError, ValueError, OverflowError):
             said = "numbers or arrays that fit each other are expected"
             raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
+        if self._held is not None:
+            whole, part = self._held
+            own = {whole.plan.members[f"{part}.{name}"].name: value for name, value in given.items()}
+            return cast(Self, whole.moved({**whole.strokes, **own}).part(part))
         own = self._grid.per_design and arrays[0].shape[: len(self._design_shape)] == self._design_shape
         joining = joined_in_order if self._grid.per_design or not self._grid.joins_itself else None
         with unwarned():

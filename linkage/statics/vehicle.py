@@ -606,6 +606,7 @@ def reaction(
     known = np.asarray(np.broadcast_to(known, motion.shape))
     require(np.all(np.isfinite(known[motion.reached])), "drive_force", drive_force, "is not finite at every pose; give numbers in N or Nm")
     if not is_under_frame(motion.plan, element):
+        motion._refuse_part(f"the reaction of {name}")
         return balancing_reaction(motion, acting, name, element, stroke_of(motion.plan, drive, "drive"), known)
     held = motion._of_the_whole(element) if element.name else None
     if held is not None:

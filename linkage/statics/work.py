@@ -73,8 +73,12 @@ def driving_force(
 
 def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: float = 1.0) -> FloatArray:
     """Return the generalised force of a stroke in a situation, shape (...): of `drive`, the only one where that is None."""
-    motion = held_in_case(require_motion(motion), acting)
-    stroke = stroke_of(motion.plan, drive, "drive")
+    stroke = stroke_of(require_motion(motion).plan, drive, "drive")
+    held = motion_of_whole(motion, motion.plan.members[stroke])
+    if held is not None:
+        whole, own = held
+        return stroke_force(require_motion(whole), replace(acting, drive=own.name), own.name, efficiency)
+    motion = held_in_case(motion, acting)
     rates = rates_in(motion, acting, stroke)
     applied = applied_loads(motion, acting, rates)
     names = {name for point in applied.points for name in motion.plan.reaches(point)}

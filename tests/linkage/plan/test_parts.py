@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from hydraulics import Cylinder, LiftCircuit, OilLine, Tank
+from hydraulics import Cylinder, LiftCircuit, OilLine, Tank, thrust
 from linkage import (
     RIGHT,
     AssemblyError,
@@ -30,6 +30,7 @@ from linkage import (
     bar,
     deg,
     distance,
+    drive_force,
     equations,
     export,
     mm,
@@ -148,6 +149,17 @@ def test_the_motion_of_a_part_is_that_of_the_part_alone_with_the_forces_of_the_w
     assert_array_equal(ram.thrust(lower), Loader.plan.members["lower.ram"].thrust(parts))
     assert np.all(np.abs(ram.thrust(lower)) > 1.5 * np.abs(ram.thrust(alone)))  # the upper arm hangs on it
     assert [column.name for column in Arm().columns(lower)] == [column.name for column in Arm().columns(alone)]
+    assert_array_equal(lower[drive_force("S")], parts[drive_force("s1")])
+    moved = Loader(**{"lower.OB": 0.5}).at(**{**POSES, "s1": STROKES / 2})
+    assert_array_equal(ram.thrust(lower.moved({"S": STROKES / 2})), moved[thrust("lower.ram")])
+    assert_allclose(lower.gradient("T", ["OB"]), alone.gradient("T", ["OB"]), rtol=1e-12)
+    of_whole = {
+        "the gradient of thrust": lambda: lower.gradient(thrust("ram"), ["OB"]), "the force at O": lambda: lower[pin_force("O")],
+        "what is judged": lambda: Arm().verdicts(lower),
+    }  # fmt: skip
+    for what, asked in of_whole.items():
+        with pytest.raises(DefinitionError, match=f"Loader: {what}.* of the part lower hangs on .* names such as lower"):
+            asked()
     with pytest.raises(DefinitionError, match="Part 'side' is unknown in Loader"):
         parts.part("side")
 

@@ -189,12 +189,16 @@ class PinEquation(NamedTuple):
     """The link that it comes from, if one."""
 
 
-def link_equations(parts: Parts, name: str) -> list[PinEquation]:
-    """Return a link's equations: one length, and two for every further point that is rigid with two points before it."""
+def link_equations(parts: Parts, name: str, rigid: set[str]) -> list[PinEquation]:
+    """Return a link's equations: one length, and two for every further point that is rigid with two points before it.
+
+    Those of its points that are `rigid` by links before it are so without.
+    """
     link, shape = parts.links[name], parts.shapes[name]
-    points = [*parts.firm(link), *parts.loose(link)]
+    firm = parts.firm(link)
+    points = sorted([*firm, *parts.loose(link)], key=(firm if len(firm) > 1 else [*rigid]).__contains__, reverse=True)
     known = (pair for pair in combinations(points, 2) if shape.distance(*pair) is not None and not shape.coincide(*pair))
-    first, second = points[:2] if len(parts.firm(link)) > 1 else next(known, tuple(points[:2]))
+    first, second = points[:2] if len(firm) > 1 or rigid else next(known, tuple(points[:2]))
     points = [first, second, *(point for point in points if point not in (first, second))]
     length = shape.distance(first, second)
     fault = "" if length is not None else f"the length {first}{second} of {name} = {link} is missing; give it, or draw both pins at=(x, y)."
@@ -203,7 +207,7 @@ def link_equations(parts: Parts, name: str) -> list[PinEquation]:
         return tuple(pin for pin in pins if pin not in parts.settled)
 
     measured = None if length is None else (first, second, length)
-    rows = [PinEquation(loose(first, second), length=measured, fault=fault, link=name)] if loose(first, second) else []
+    rows = [PinEquation(loose(first, second), length=measured, fault=fault, link=name)] if loose(first, second) and not rigid else []
     for pin, step in attachments(points, shape, f"{parts.title}: the shape of {name} = {link}", parts.one_place):
         rough = [name_of(parent) for parent in step.parents if step.drawn_at and shape.drawn(name_of(parent)) is None]
         if rough:
@@ -211,7 +215,8 @@ def link_equations(parts: Parts, name: str) -> list[PinEquation]:
         else:
             fault, step = "", as_sketched(parts, pin, step, f"{parts.title}: {name} = {link}", shape)
         held = (*map(name_of, step.parents), pin)
-        rows += [PinEquation(loose(*held), attached=(pin, step), half=half, fault=fault, link=name) for half in (0, 1)]
+        halves = () if pin in rigid else (0, 1)
+        rows += [PinEquation(loose(*held), attached=(pin, step), half=half, fault=fault, link=name) for half in halves]
     return rows
 
 
@@ -257,10 +262,15 @@ def next_group(parts: Parts) -> Group:
     import networkx as nx
 
     rows: list[PinEquation] = []
+    bodies: list[set[str]] = []
     for name, link in parts.links.items():
+        points = {*link.point_names}
+        body = next((each for each in bodies if len(each & points) > 1), set[str]())  # links that share two points are one body
         if parts.loose(link):
             with about(name):
-                rows += link_equations(parts, name)
+                rows += link_equations(parts, name, body & points)
+        body |= points
+        bodies += [] if body in bodies else [body]
     for slide in parts.slides.values():
         guide = parts.guides[name_of(slide.guide)]
         held = (name_of(slide.point), *guide.points)

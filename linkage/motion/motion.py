@@ -32,7 +32,20 @@ from .instants import Instants
 from .limits import Limits, no_joint, refuse_at, span_text, stroke_unit, where_words
 from .over import Over, with_strokes
 from .poles import body_points, body_rates, pole_of, whole_body
-from .requests import Request, RequestLike, Trait, Value, as_they_run, bound, dimensions_of, natural_size, places_of, slope, stroke_of, switches_of
+from .requests import (
+    Request,
+    RequestLike,
+    Trait,
+    Value,
+    as_they_run,
+    bound,
+    dimensions_of,
+    natural_size,
+    places_of,
+    slope,
+    stroke_of,
+    switches_of,
+)
 from .stroke_search import Interruption
 from .strokes import check_any, checked_name, checked_rate, order_of, rate_values, rates_of
 
@@ -300,8 +313,8 @@ class Motion(Shown):
         """Raise DefinitionError where this motion is read as that of a part: what hangs on forces is asked of the whole."""
         if self._held is not None:
             whole, part = self._held
-            said = f"{what} of the part {part} hangs on forces, which are those of the whole"
-            raise DefinitionError(f"{whole.plan.title}: {said}; ask the whole's motion, with names such as {part}.{next(iter(self.plan.points))}.")
+            remedy = f"ask the whole's motion, with names such as {part}.{next(iter(self.plan.points))}"
+            raise DefinitionError(f"{whole.plan.title}: {what} of the part {part} hangs on forces, which are those of the whole; {remedy}.")
 
     @property
     def _machine_motion(self) -> Motion:
@@ -843,8 +856,8 @@ class Motion(Shown):
             raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
         if self._held is not None:
             whole, part = self._held
-            own = {whole.plan.members[f"{part}.{name}"].name: value for name, value in given.items()}
-            return cast(Self, whole.moved({**whole.strokes, **own}).part(part))
+            renamed = {whole.plan.members[f"{part}.{name}"].name: value for name, value in given.items()}
+            return cast(Self, whole.moved({**whole.strokes, **renamed}).part(part))
         own = self._grid.per_design and arrays[0].shape[: len(self._design_shape)] == self._design_shape
         joining = joined_in_order if self._grid.per_design or not self._grid.joins_itself else None
         with unwarned():

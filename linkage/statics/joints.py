@@ -489,8 +489,9 @@ class Structure:
         if len(load.on) == 1:
             pair = next((each for each in self.pairs if each.member.name == load.on[0] and load.point in each.points), None)
             return self.index(load.on[0]) if pair is None else self.halves_with(load.point, *pair.member.ends)[0]
-        if load.on and not set(self.owners(load.on[0])) & set(self.owners(load.on[1])):
-            return (self.halves_with(load.point, *load.on) or [self.carrier(load.on[0], load.on[1], "a load")])[0]
+        if load.on and not set(self.owners(load.on[0])) & set(self.owners(load.on[1])):  # of a bar that stretches each end bears its own
+            ends = self.owners(load.point)[-1:] if load.point in load.on else []
+            return (self.halves_with(load.point, *load.on) or ends or [self.carrier(load.on[0], load.on[1], "a load")])[0]
         return self.carrier(load.on[0], load.on[1], "a load") if load.on else self.holder(load.point)
 
     def halves_with(self, point: str, *others: str) -> list[int]:

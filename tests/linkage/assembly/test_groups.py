@@ -51,6 +51,23 @@ def test_platform_against_newton_on_its_own_three_coordinates():
             assert_allclose(motion[name][(slice(None), *pose)], [corner.real, corner.imag], rtol=0, atol=1e-11)
 
 
+@pytest.mark.parametrize("more", [
+    {"edge": Link("C D", CD=0.28)},
+    {"edge": Link("B D", BD=0.25), "plate2": Link("D C E", CD=0.28, CE=0.2, DE=0.3), "E": Pin(near=(0.6, 0.6))},
+    {"flap": Link("B C E", BC=0.30, BE=0.2, CE=0.2), "E": Pin(near=(0.55, 0.5)), "same": Link("E B C")},
+    {"rod": Link("A1 B"), "arm": Link("A1 B E", BE=0.3, A1E=0.3), "E": Pin(near=(0.05, 0.3))},
+])  # fmt: skip
+def test_links_that_share_two_points_are_one_body_in_a_group(more):
+    if "rod" in more:  # a rod told twice
+        more = {**more, "first": Link("A1 B", A1B=0.5)}
+        strokes, plain = {"S2": 0.02, "S3": 0.01}, type("Plain", (Platform,), {"first": Link("A1 B", A1B=0.5), "S1": None, "L1": None})
+    else:
+        strokes, plain = {"S1": 0.03, "S2": 0.02, "S3": 0.01}, Platform
+    twice = type("Twice", (plain,), more)
+    for name in "BCD":
+        assert_allclose(twice().at(**strokes)[name], plain().at(**strokes)[name], rtol=1e-12)
+
+
 def test_platforms_ratios_are_the_jacobians_inverse():
     """Rows of the inverse problem: dL_i = u_i . dB_i, so that the ratios by the three strokes are the inverse of that matrix."""
     motion = Platform().at(S1=0.03, S2=-0.02, S3=0.04)

@@ -214,6 +214,20 @@ def test_gravity_of_another_place():
     assert_allclose(driving_force(at(Cases), case=moon), driving_force(at(Cases)) * 1.62 / G0, rtol=1e-13)
 
 
+def test_each_end_of_a_bar_that_stretches_bears_its_half():
+    class Telescope(Lift):
+        """A boom whose tip goes out."""
+
+        t = Stroke(0.0, 1.0)
+        T = OnLink("O", "B", OT=1.8 + ref("t"), BOT=100 * deg)
+        tube = LinkMass("O T", mass=90)
+
+    machine = Telescope()
+    found, halves = (machine.at(S=0.6, t=0.4)[pin_force("B", "AB")], [Weight("G", mass=900), Weight("T", mass=45), Weight("O", mass=45)])
+    assert_allclose(found, machine.at(S=0.6, t=0.4)[pin_force("B", "AB", loads=halves)], rtol=1e-12)
+    assert pin_forces(machine.at(S=0.6, t=0.4)).gap < 1e-12
+
+
 class Centrifuge(Lift):
     """Every mass has a gravity of its own."""
 

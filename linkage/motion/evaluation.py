@@ -40,11 +40,11 @@ class BulkProgram(NamedTuple):
     @classmethod
     def for_requests(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
         """Return the program of requests that are bound to a plan, made once; guards watch the members they are built from."""
-        return plan.made(("bulk", tuple([each.key for each in requests])), lambda fork: cls.compiled_on(fork, requests))
+        return of_all("bulk", plan, requests, cls.compiled_on)
 
     @classmethod
     def compiled_on(cls, plan: Plan, requests: Sequence[Request]) -> BulkProgram:
-        """Return the same, traced in a plan of its own."""
+        """Return the same on a plan, which traces them: one of its own, or that which all laws share."""
         nodes = [each.nodes(plan) for each in requests]
         noted = dict.fromkeys(chain(*(each.notes(plan).assumed for each in requests), *(each.gaps(plan) for each in requests)))
         watched = plan.trace.watched(members_behind(plan, requests), max((each.regular for each in requests), default=0.0))

@@ -18,11 +18,10 @@ from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Polygon
 from matplotlib.patheffects import withStroke
 
 from linkage.pictures import style
-from linkage.pictures.drawing import MarkPart, body_part, dot, pin
+from linkage.pictures.drawing import MarkPart, body_part, dot, ground, pin
 from linkage.pictures.scene import DrawnCylinder, DrawnMark, Plate
 from linkage.pictures.shapes import BLOCK, LONG, tube
 from linkage.pictures.style import STRONG
-from linkage.pictures.symbols import ground
 
 Place = tuple[float, float]
 

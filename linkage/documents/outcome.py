@@ -399,7 +399,7 @@ def limits_section(subject: ReportSubject) -> Section:
     with unwarned():
         angles = subject.judge.answers([least(transmission(joint)) for joint in joints])
     rows = tuple(
-        (*row, places_text({held.stroke: held.value for held in each.held}, {held.stroke: held.unit for held in each.held}))
+        (*row, places_text({name: value for name, value, _ in each.held}, {name: unit for name, _, unit in each.held}))
         for each in limits for row in limit_rows(each)
     )  # fmt: skip
     for joint, answer in zip(joints, angles, strict=True):

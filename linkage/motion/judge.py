@@ -50,7 +50,7 @@ from .measures import (
     conditions_of,
     in_situation,
     is_quantity,
-    kind_of_measure,
+    kind_of_quantity,
     reachable,
     strokes_behind,
     traced,
@@ -1081,7 +1081,7 @@ def measures_of(plan: Plan, question: object) -> str:
     measure = question.left if isinstance(question, Constraint) else question
     match measure:
         case Integral() | CombinedMeasure():
-            kind = kind_of_measure(plan, measure)
+            kind = kind_of_quantity(plan, measure)
             return kind.name if kind is not None else ""
         case Leaf():
             return measured_in(plan, stands_for(plan.members, measure.quantity))

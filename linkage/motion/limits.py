@@ -31,7 +31,8 @@ class StrokeLimits:
     intervals: tuple[Interval, ...]
     change_points: tuple[tuple[float, str], ...]
     transmission: tuple[Extreme, ...] = ()
-    held: tuple[HeldStroke, ...] = ()
+    held: tuple[tuple[str, float, str], ...] = ()
+    """The other strokes, where each is held, and its unit."""
     open_turn: Open | None = None
     cylinder_dead_points: tuple[tuple[float, str], ...] = ()
     """Where the length of a cylinder that hangs beside the drive stands still, so that its thrust moves nothing: (stroke, cylinder)."""
@@ -48,7 +49,8 @@ class StrokeLimits:
         return tuple((value, stop) for value, stop in ends if stop)
 
     def __str__(self) -> str:
-        held = said(", with {strokes} held", strokes=", ".join(map(str, self.held))) if self.held else ""
+        others = ", ".join(f"{name} = {stroke_text(value, unit)}" for name, value, unit in self.held)
+        held = said(", with {strokes} held", strokes=others) if others else ""
         start, end = stroke_number(self.start, self.unit), stroke_text(self.end, self.unit)
         lines = [f"{self.stroke}: {said('declared {low} to {high}', low=start, high=end)}{held}"]
         for each in self.intervals:
@@ -202,19 +204,6 @@ class Extreme:
     joint: str
     angle: float
     stroke: float
-
-
-@refuses_changes
-@dataclass(frozen=True)
-class HeldStroke:
-    """A stroke that is held, and where [m or rad, which its unit says]."""
-
-    stroke: str
-    value: float
-    unit: str
-
-    def __str__(self) -> str:
-        return f"{self.stroke} = {stroke_text(self.value, self.unit)}"
 
 
 @refuses_changes

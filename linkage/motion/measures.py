@@ -384,7 +384,7 @@ def require_quantity(quantity: object, word: str) -> Any:
 
 def words_of(quantity: object) -> str:
     """Return a quantity in words, as one writes it: `abs(tilt)`, numbers with six digits."""
-    if isinstance(quantity, (str, Worst, Request, Quantity)):  # without NumPy's own names and digits that nobody reads
+    if isinstance(quantity, (str, Worst, Request, Quantity, Measure)):  # without NumPy's own names and digits that nobody reads
         text = str(quantity.name or quantity) if isinstance(quantity, Quantity) else str(quantity)
         return _LONG.sub(lambda number: f"{float(number[0]):.6g}", text).replace("absolute(", "abs(")
     name = str(getattr(quantity, "__name__", ""))
@@ -638,37 +638,26 @@ def measure_of(plan: Plan, quantity: object) -> str:
 
 
 CHOOSING = ("absolute", "minimum", "maximum")
-
-
-def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
-    """Return the kind of a measure; None where it is not known, and of a number. DefinitionError where parts are added that differ."""
-    if isinstance(measure, FixedNumber):
-        return kind_called(measure.measures)
-    if isinstance(measure, Integral):
-        inner = kind_of_quantity(plan, measure.quantity)
-        by = [each for each in plan.strokes if measure.by in (None, each)]
-        kinds = {kind.name: kind for kind in (inner.times(kind_of_stroke(plan, each)) for each in by)} if inner is not None else {}
-        return next(iter(kinds.values())) if len(kinds) == 1 else None  # of several kinds it depends on which stroke runs
-    if isinstance(measure, Leaf):
-        for name, value in measure.strokes.items() if isinstance(measure, At) else ():
-            require_kind(plan, name, value, f"{plan.title}: {measure}: {name}")
-        return kind_of_quantity(plan, measure.quantity)
-    assert isinstance(measure, CombinedMeasure)
-    left, right = (kind_of_measure(plan, each) for each in (measure.left, measure.right))
-    if measure.symbol in ("+", "-"):
-        return common_kind(plan, str(measure), left, right)
-    if measure.symbol == "**":
-        power = measure.right.value if isinstance(measure.right, FixedNumber) else None
-        return None if left is None or power is None else left.to_the(power)
-    sides = (measure.left, measure.right)
-    a, b = (each.value if isinstance(each, FixedNumber) and not each.measures else None for each in sides)  # numbers without a unit
-    return product_of(measure.symbol == "/", (left, a), (right, b))
+NAMED = {symbol: function for function, symbol in UFUNCS.items()}
+"""NumPy's functions by the operators that are written for them."""
 
 
 def kind_of_quantity(plan: Plan, quantity: object) -> MeasureKind | None:
-    """Return the kind of a quantity or request; None where it is not known, and of a number. DefinitionError as for a measure."""
+    """Return the kind of a quantity, a request or a measure; None where it is not known, and of a number.
+
+    DefinitionError where parts are added that differ.
+    """
     known = stands_for(plan.members, quantity)
-    if isinstance(known, Worst):
+    if isinstance(known, FixedNumber):
+        return kind_called(known.measures)
+    if isinstance(known, Integral):
+        inner = kind_of_quantity(plan, known.quantity)
+        by = [each for each in plan.strokes if known.by in (None, each)]
+        of_strokes = {kind.name: kind for kind in (inner.times(kind_of_stroke(plan, each)) for each in by)} if inner is not None else {}
+        return next(iter(of_strokes.values())) if len(of_strokes) == 1 else None  # of several kinds it depends on which stroke runs
+    for name, value in known.strokes.items() if isinstance(known, At) else ():
+        require_kind(plan, name, value, f"{plan.title}: {known}: {name}")
+    if isinstance(known, (Leaf, Worst)):
         return kind_of_quantity(plan, known.quantity)
     if isinstance(known, str):
         owner = plan.table.spellings.get(known)
@@ -676,16 +665,16 @@ def kind_of_quantity(plan: Plan, quantity: object) -> MeasureKind | None:
     sign, parts = operation(known)
     if not sign and isinstance(known, Value) and known.along:
         inner = kind_called("length") if isinstance(stands_for(plan.members, known.target), Point) else kind_of_quantity(plan, known.target)
-        by = kind_of_stroke(plan, stroke_of(plan, known.along[0]))
-        return None if inner is None else inner.times(by.to_the(float(known.order)), -1.0)
+        by_stroke = kind_of_stroke(plan, stroke_of(plan, known.along[0]))
+        return None if inner is None else inner.times(by_stroke.to_the(float(known.order)), -1.0)
     if not sign:  # of a moment it is told here, which is shown as a plain number
         return kind_called(measured_in(plan, known) or measure_of(plan, known))
-    kinds = [kind_of_quantity(plan, each) for each in parts if constant_part(each) is None]
-    if sign in ("add", "subtract", *CHOOSING, "hypot", "negative"):
-        return reduce(lambda one, other: common_kind(plan, words_of(known), one, other), kinds, None)
     if sign in ("multiply", "divide"):
         a, b = ((kind_of_quantity(plan, each), constant_part(each)) for each in parts)
         return product_of(sign == "divide", a, b)
+    kinds = [kind_of_quantity(plan, each) for each in parts if constant_part(each) is None]
+    if sign in ("add", "subtract", *CHOOSING, "hypot", "negative"):
+        return reduce(lambda one, other: common_kind(plan, words_of(known), one, other), kinds, None)
     if sign in ("power", "sqrt") and kinds and kinds[0] is not None:
         power = 0.5 if sign == "sqrt" else constant_part(parts[1])
         return None if power is None else kinds[0].to_the(power)
@@ -703,16 +692,20 @@ def kind_of_stroke(plan: Plan, name: str) -> MeasureKind:
 
 
 def constant_part(part: object) -> float | None:
-    """Return a number that stands in a quantity; None for anything else."""
+    """Return a number that stands in a quantity or a measure without a unit; None for anything else."""
+    if isinstance(part, FixedNumber):
+        return None if part.measures else part.value
     return part.number if isinstance(part, Number) else part if isinstance(part, float) else None
 
 
 def operation(quantity: Any) -> tuple[str, tuple[Any, ...]]:
-    """Return by which of NumPy's functions a quantity is made, and of what; "" for one that is no such thing."""
+    """Return by which of NumPy's functions a quantity or a measure is made, and of what; "" for one that is no such thing."""
+    if isinstance(quantity, CombinedMeasure):
+        return NAMED[quantity.symbol], (quantity.left, quantity.right)
     if isinstance(quantity, Combined):
         return quantity.function, quantity.parts
     if isinstance(quantity, Operation):
-        return {"*": "multiply", "/": "divide", "**": "power"}[quantity.symbol], quantity.parts()
+        return NAMED[quantity.symbol], quantity.parts()
     if isinstance(quantity, Function):
         return quantity.symbol, quantity.parts()
     named = {Sum: "add", Negative: "negative"}.get(type(quantity), "")
@@ -752,9 +745,9 @@ FAINTEST = 1000.0
 def check_kinds(plan: Plan, measures: Iterable[Measure], constraints: Iterable[Constraint]) -> None:
     """Raise DefinitionError where measures or conditions add or compare different kinds."""
     for each in measures:
-        kind_of_measure(plan, each)
+        kind_of_quantity(plan, each)
     for constraint in constraints:
-        kinds = [kind_of_measure(plan, side) for side in (constraint.left, constraint.right)]
+        kinds = [kind_of_quantity(plan, side) for side in (constraint.left, constraint.right)]
         common_kind(plan, str(constraint), *kinds)
         for side, kind in zip((constraint.right, constraint.left), kinds, strict=True):
             if isinstance(side, FixedNumber) and side.measures not in ("", "angle") and kind == kind_called("number"):
@@ -793,5 +786,5 @@ def measure_unit(plan: Plan, measure: Measure | Constraint) -> str:
     'Nm'
     """
     sides = (measure.left, measure.right) if isinstance(measure, Constraint) else (measure,)
-    found = {display_unit(kind.name, "mm") for each in sides if (kind := kind_of_measure(plan, each)) is not None}
+    found = {display_unit(kind.name, "mm") for each in sides if (kind := kind_of_quantity(plan, each)) is not None}
     return found.pop() if len(found) == 1 else ""

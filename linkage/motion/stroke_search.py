@@ -26,7 +26,6 @@ from ..units import deg
 from .grid import Grid, MotionLike, recalled
 from .limits import (
     Extreme,
-    HeldStroke,
     Interval,
     Limits,
     Open,
@@ -112,7 +111,7 @@ class StrokeLine:
         order = np.argsort(at, kind="stable")
         found = self.ranges_among(at[order], reached[order])
         crossings = tuple((each.deepest, name_or_pins(plan, each.step)) for each in between if not each.is_gap)
-        others = tuple(HeldStroke(each, value, stroke_unit(plan, each)) for each, value in self.held.items() if each != name)
+        others = tuple((each, value, stroke_unit(plan, each)) for each, value in self.held.items() if each != name)
         least, turns = self.least_transmission(found), self.open_turn(found) if unit == "rad" else None
         still = tuple(self.dead_points([(each.low, each.high) for each in found]))
         return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, still)

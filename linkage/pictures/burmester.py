@@ -14,10 +14,9 @@ from ..motion.regions import Disc
 from ..program import FloatArray
 from ..synthesis.exact_poses import Burmester, GuidingLink
 from . import style
-from .paper import empty_page, legend_row, write_title
 from .scene import Bounds
 from .shapes import left_of, polar
-from .sheet import Keywords
+from .sheet import Keywords, empty_page, legend_row, write_title
 
 ROOM = 1.6
 """Of the extent of poses and region: how much of the plane is shown, where the curves go on."""

@@ -15,8 +15,7 @@ from ..errors import DefinitionError
 from ..language import said
 from ..program import FloatArray
 from . import style
-from .paper import footnote, write_title
-from .sheet import empty_figure
+from .sheet import empty_figure, footnote, write_title
 
 if TYPE_CHECKING:
     import networkx as nx

@@ -19,10 +19,10 @@ from . import style
 from .drawing import Drawing
 from .layout import cloud, joined_box
 from .overlays import sheet_note
-from .paper import empty_page, legend_row, look_keys, write_title
 from .pose_choice import telling_angles
 from .poses import motions, trace
 from .scene import Scene
+from .sheet import empty_page, legend_row, look_keys, write_title
 from .shown_values import named_points
 from .strokes import is_turn, stroke_words
 from .style import FAINT, STRONG, Look

@@ -11,18 +11,16 @@ from ..motion import Motion
 from ..plan.members import FRAME
 from . import arrows, style
 from .arrows import ArrowLayer, Wording
-from .drawing import MarkPart, body_part, pin
+from .drawing import LabelPart, MarkPart, MovingPart, body_part, pin, polygon
 from .force_arrows import ForceQuestion, drawn_body, force_layer, forces_at_pose
 from .labels import offsets
 from .layout import grown
 from .overlays import sheet_note
-from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, write_title
 from .scene import Places, Plate, Scene
 from .shapes import hull, segment
-from .sheet import empty_figure, fitted_to, points_a_metre, sheet
+from .sheet import BOTTOM, LEFT, RIGHT, TOP, empty_figure, fitted_to, footnote, legend_row, points_a_metre, sheet, write_title
 from .shown_values import short_name
 from .style import STRONG
-from .symbols import LabelPart, MovingPart, polygon
 
 FREE_WIDTH, FREE_HEIGHT = 11.0, 6.0
 """The figure's size [inch]."""

@@ -23,8 +23,8 @@ from ..program import FloatArray
 from ..units import show
 from . import style
 from .arrows import Wording
+from .drawing import arrow_between
 from .shapes import left_of
-from .symbols import arrow_between
 
 SHORT = 5.0
 """A gap that is shorter than so many sizes has its arrows outside."""

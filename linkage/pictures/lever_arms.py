@@ -19,9 +19,9 @@ from . import style
 from .arrows import ArrowLayer, TurningArrow, VectorArrow, Wording, significant
 from .dimensioned import LETTERS, LengthLine
 from .force_arrows import GROUND, LOAD, MEMBER, PIN, ForcesAt, layer_of, load_groups
-from .paper import LEFT, RIGHT, WIDTH
 from .scene import Bounds
 from .shapes import left_of
+from .sheet import LEFT, RIGHT, WIDTH
 from .shown_values import short_name
 
 BESIDE, STEP = 2.5, 1.7

@@ -16,9 +16,8 @@ from ..language import said, said_of
 from ..motion import Motion
 from . import style
 from .drawing import draw_scene
-from .paper import footnote, write_title
 from .scene import Scene
-from .sheet import Keywords, empty_figure, fitted_to
+from .sheet import Keywords, empty_figure, fitted_to, footnote, write_title
 from .strokes import pose_words
 
 MOST_MODES = 24

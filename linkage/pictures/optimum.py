@@ -23,16 +23,14 @@ from ..study.problem import Problem
 from ..units import factor, mm, shown_in
 from . import style
 from .curves import WIDEST, axis_range, mark_limit, panel_grid, stroke_panel
-from .drawing import draw_scene
+from .drawing import arrow_between, draw_scene
 from .labels import offsets
 from .layout import joined_box, label_free
-from .paper import legend_row, look_keys, sheets_beside, write_title
 from .scene import Places, Scene
-from .sheet import haloed_beside, points_a_metre
+from .sheet import haloed_beside, legend_row, look_keys, points_a_metre, sheets_beside, write_title
 from .shown_values import leaf_bound, limit_on, typeset
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT, STRONG
-from .symbols import arrow_between
 
 AIR = 8.0
 """The margin around the machine, in sizes of its pins."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 import sys
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
-from itertools import chain, groupby, permutations, zip_longest
+from itertools import groupby, permutations
 from pathlib import Path
 from typing import Any, cast
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited, is_listed, known_name, require, require_type, unknown, unwarned
 from ..language import heading_of, language, translated
-from ..loads import PLAIN_CASE, Case, ForceElement, TwoPoint
+from ..loads import PLAIN_CASE, Case, ForceElement
 from ..mechanism import Mechanism, verdicts_of
 from ..motion import Answer, Column, HasVerdicts, Judge, LiveText, Motion, Tabled, case_named, speakers, stroke_display_unit
 from ..motion.requests import NodeRequest, RequestLike, transmission
@@ -26,9 +26,8 @@ from ..program import FloatArray, Node
 from ..quantities import is_number, joined_names, needs
 from ..reports import LiveColumn, column_requests, friction_of_columns, is_changing, request_in_case, results
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
-from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_sign, unit_system, units_shown
+from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system, units_shown
 from ..verdict import Verdict
-from .influence import influences
 from .labels import offsets
 from .layout import label_free, props
 from .page_file import EVENTS, MACHINE, START, PageData, page_part, page_text, tight
@@ -406,6 +405,28 @@ def shown_first(requests: PageRequests, dims: Sequence[Sequence[Any]]) -> list[s
     return sorted([*chosen][:SHOWN], key=lambda name: name.rpartition(".")[0])
 
 
+MOVES_NOTHING = 1e-9
+"""Of the greatest influence: a dimension that has no more moves nothing."""
+
+
+def influences(motions: Sequence[Motion], requests: Sequence[RequestLike], ranges: Mapping[str, float]) -> dict[str, float]:
+    """Return how far each dimension moves results at most over its slider [SI], the greatest first, those that move nothing left out.
+
+    `ranges` is how far each slider goes [SI]. Nothing where a result has no derivatives.
+    """
+    names, found = list(ranges), np.zeros(len(ranges))
+    for motion, request in ((motion, request) for motion in motions for request in requests):
+        try:
+            with unwarned():
+                slopes = motion.gradient(request, names)
+        except LinkageError:
+            return {}
+        found = np.maximum(found, np.abs(np.nan_to_num(slopes, posinf=0.0, neginf=0.0)).reshape(len(names), -1).max(axis=1))
+    moved = found * np.array([*ranges.values()])
+    order = np.argsort(-moved, kind="stable")
+    return {names[k]: float(moved[k]) for k in order if moved[k] > MOVES_NOTHING * moved.max(initial=0.0)}
+
+
 def stroke_data(requests: PageRequests) -> list[PageData]:
     """Return the strokes: their ranges, where they stand, their units, and whether they go round.
 
@@ -530,24 +551,16 @@ def cylinder_data(scene: Scene, live: LiveText | None = None, count: int = 0) ->
     plan = scene.motion.plan
     points = list(plan.points)
     driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
-    elements = defaultdict(list)
-    for name, element in plan.of_kind(TwoPoint).items():
-        if element.drawn_as == "cylinder":
-            elements[frozenset(element.ends)].append(name)
-    drawn = {(each.P, each.Q, each.aside) for each in scene.two_force if not scene._is_telescope(each)}
-    members = speakers(plan, Tabled)
-    found = []
+    members, found = speakers(plan, Tabled), []
     for each in scene.two_force:
         if each.drawn_as != "cylinder":
             continue
-        pair = frozenset((each.P, each.Q))
-        name = elements[pair].pop(0) if elements[pair] else ""
-        gauges = {what: situated_rows(f"gauge {name} {what}", live, count) for what in GAUGES} if live is not None else {}
+        gauges = {what: situated_rows(f"gauge {each.name} {what}", live, count) for what in GAUGES} if live is not None else {}
         gauges = {what: row for what, row in gauges.items() if row is not None}
-        data = {"name": name or joined_names(each.P, each.Q), "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
-        data |= {"drawn": 1} if (each.P, each.Q, each.aside) in drawn else {}
-        is_sized = live is not None and name in members and bool(SIZES & members[name].gauges(plan).keys())
-        found.append(data | gauges | ({"sized": 1} if is_sized else {}) | ({} if pair in driven else {"beside": 1}))
+        data = {"name": each.name, "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
+        data |= {} if scene._is_telescope(each) else {"drawn": 1}
+        is_sized = live is not None and each.name in members and bool(SIZES & members[each.name].gauges(plan).keys())
+        found.append(data | gauges | ({"sized": 1} if is_sized else {}) | ({} if {each.P, each.Q} in driven else {"beside": 1}))
     return found
 
 
@@ -647,30 +660,6 @@ def verdicts_told(
         return [(3 if each.is_rule and each.ok is None else MARKS[each.ok], each.heading, each.sentence) for each in found], found
 
 
-def values_in(signs: Iterable[str]) -> re.Pattern[str]:
-    """Return the pattern of a number with the sign of its unit, where it has one."""
-    units = "|".join(re.escape(each) for each in sorted(signs, key=len, reverse=True))
-    return re.compile(rf"([-+]?\d+(?:\.\d+)?)(?: ({units})(?!\w))?")
-
-
-VALUES = values_in(UNITS)
-
-
-def russian_in_units(russian: str, plain: str, other: str, values: re.Pattern[str]) -> str | None:
-    """Return a Russian sentence with its values as another English one of the same words has them; None where these do not tell all.
-
-    `values` is the pattern of numbers with Russian signs of units.
-    """
-    before, after, found = VALUES.split(plain), VALUES.split(other), values.split(russian)
-    spoken = zip(before[1::3], (unit and translated(unit) for unit in before[2::3]), strict=True)
-    pairs = set(zip(spoken, zip(after[1::3], after[2::3], strict=True), strict=False))
-    known, own = dict(pairs), list(zip(found[1::3], found[2::3], strict=True))
-    if before[::3] != after[::3] or len(known) < len(pairs) or not set(own) <= known.keys():
-        return None
-    texts = [f"{number} {unit_sign(unit)}" if unit else number for number, unit in map(known.__getitem__, own)]
-    return "".join(chain.from_iterable(zip_longest(found[::3], texts, fillvalue="")))
-
-
 def verdicts_shown(requests: PageRequests) -> PageData:
     """Return the verdicts of the page, and their words in each system of units, in English and Russian; 0 where they are as delivered.
 
@@ -682,21 +671,14 @@ def verdicts_shown(requests: PageRequests) -> PageData:
     russian, _ = told("ru")
     russian = russian if len(russian) == len(english) else english
     shown_units = shown_units | {"mm", *(stroke_display_unit(machine.plan, name, "mm") for name in machine.strokes)}  # told before
-    with language("ru"):
-        values = values_in({translated(unit) for unit in UNITS})
     for name in SYSTEMS:
         found[name] = [0] * len(english)
         with unit_system(name):
             others, _ = (english, None) if all(shown_in(unit) == unit for unit in shown_units) else told("en")
-            if len(others) != len(english) or others == english:
-                continue
-            with language("ru"):
-                told_as = zip(russian, english, others, strict=True)
-                rows = [russian_in_units(ru[2], en[2], other[2], values) for ru, en, other in told_as]
-            sentences = [each for each in rows if each is not None]
-            sentences = sentences if len(sentences) == len(rows) else [each[2] for each in told("ru")[0]]
-        pairs = zip(others, sentences, english, russian, strict=True)
-        found[name] = [0 if (other[2], row) == (en[2], ru[2]) else [typeset(other[2]), typeset(row)] for other, row, en, ru in pairs]
+            if len(others) == len(english) and others != english:
+                pairs = zip(others, told("ru")[0], english, russian, strict=True)
+                sentences = (((other[2], new[2]), (en[2], ru[2])) for other, new, en, ru in pairs)
+                found[name] = [0 if told_as == known else [*map(typeset, told_as)] for told_as, known in sentences]
     plain = [[*en[:2], typeset(en[2]), ru[1], typeset(ru[2])] for en, ru in zip(english, russian, strict=True)]
     shown: PageData = {"verdicts": plain, "verdictsIn": found}
     if verdicts is None:

@@ -19,19 +19,17 @@ from ..quantities import is_number, is_whole, numbers_in
 from ..reports import Run, first_stroke, reached_motion, stroke_middles
 from ..units import require_measure
 from . import style
-from .drawing import Drawing, draw_scene, mechanism
+from .drawing import Drawing, arrow_between, draw_scene, mechanism
 from .free_body import draw_free_body
 from .gap_marks import gap_asked
 from .layout import cloud, grown, label_free, surrounding_points
 from .overlays import Overlay, Overlays
-from .paper import empty_page, footnote, legend_row, look_keys, remark, write_title
 from .pose_choice import telling_angles
 from .scene import Pose, Scene
-from .sheet import sheet
+from .sheet import empty_page, footnote, legend_row, look_keys, remark, sheet, write_title
 from .shown_values import named_points
 from .strokes import is_turn, pose_words, unreached_words
 from .style import FAINT, STRONG
-from .symbols import arrow_between
 
 MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""

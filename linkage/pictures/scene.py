@@ -61,7 +61,7 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class TwoForceMember:
-    """A two-force member from P to Q: its form, and how far to the left of P -> Q, in sizes, where others share its points.
+    """A two-force member from P to Q: its form, its name, and how far to the left of P -> Q, in sizes, where others share its points.
 
     `ends` of a telescope are its closed length and the lengths at which its stages are out [m].
     """
@@ -69,6 +69,7 @@ class TwoForceMember:
     P: str
     Q: str
     drawn_as: str
+    name: str
     aside: float = 0.0
     ends: tuple[float, ...] = ()
 
@@ -314,7 +315,7 @@ class Scene:
         plan = self.motion.plan
         given = {name for name in plan.members if getattr(plan.members.get(name.rpartition(".")[0]), "kind", "") == "load"}
         driven_bars = [bar for bar in plan.cylinders if not given & plan.reaches(bar.length)]
-        by_pair = {frozenset((bar.P, bar.Q)): [TwoForceMember(bar.P, bar.Q, "cylinder")] for bar in driven_bars}
+        by_pair = {frozenset((bar.P, bar.Q)): [TwoForceMember(bar.P, bar.Q, "cylinder", joined_names(bar.P, bar.Q))] for bar in driven_bars}
         driven = set(by_pair)
         for element, glyph in self.glyphs:
             pair = frozenset(glyph.points)
@@ -322,10 +323,10 @@ class Scene:
                 continue
             P, Q = glyph.points
             ends = () if glyph.stages is None else tuple(float(np.ravel(each)[0]) for each in glyph.stages(self.motion))
-            drawn = TwoForceMember(P, Q, glyph.drawn_as, ends=ends)
+            drawn = TwoForceMember(P, Q, glyph.drawn_as, element.name, ends=ends)
             if element.holds and pair in driven:
                 driven.discard(pair)
-                by_pair[pair] = [drawn if drawn.ends else each for each in by_pair[pair]]
+                by_pair[pair][0] = drawn if ends else replace(by_pair[pair][0], name=element.name)
             else:
                 by_pair.setdefault(pair, []).append(drawn)
         placed = []

@@ -20,11 +20,10 @@ from .curves import axis_range, stroke_panel
 from .drawing import body_part, draw_scene
 from .labels import offsets
 from .layout import cloud, grown
-from .paper import LEFT, sheets_beside, write_title
 from .poses import trace
 from .scene import Bounds, Scene
 from .shapes import polar
-from .sheet import figure_of, haloed_beside, points_a_metre
+from .sheet import LEFT, figure_of, haloed_beside, points_a_metre, sheets_beside, write_title
 from .shown_values import typeset
 from .strokes import StrokeAxis, stroke_words
 from .style import FAINT

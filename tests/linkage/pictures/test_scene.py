@@ -12,13 +12,12 @@ from hydraulics import Cylinder, FloatCircuit
 from linkage import Crank, Force, ForceElement, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, Support, Weight
 from linkage.loads import Glyph
 from linkage.pictures import mechanism, style
-from linkage.pictures.drawing import BodyPart, MarkPart
+from linkage.pictures.drawing import BodyPart, LabelPart, MarkPart
 from linkage.pictures.layout import hatched
 from linkage.pictures.page_data import body_data, mark_data
 from linkage.pictures.poses import empty_page
 from linkage.pictures.scene import Scene, rigid_together
 from linkage.pictures.shapes import plate_form, rounded_outline
-from linkage.pictures.symbols import LabelPart
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.hart import Hart

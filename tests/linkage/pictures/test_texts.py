@@ -16,12 +16,12 @@ from matplotlib.text import Annotation, Text
 
 from linkage import RIGHT, Crank, Dyad, Force, Ground, Mechanism, OnLink, Stroke, deg, draw, plot
 from linkage.pictures.arrows import EDGE, ArrowLayer, VectorArrow, draw_arrows, place_wordings, wordings
+from linkage.pictures.drawing import LabelPart
 from linkage.pictures.force_arrows import PIN, ForceQuestion, forces_at_pose, short_name
 from linkage.pictures.labels import offsets
 from linkage.pictures.shapes import lines_cross
 from linkage.pictures.sheet import empty_figure, points_a_metre, sheet
 from linkage.pictures.style import STRONG
-from linkage.pictures.symbols import LabelPart
 from tests.for_all import first_daily, for_all
 from tests.linkage.motion.in_node import elsewhere
 

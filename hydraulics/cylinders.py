@@ -94,6 +94,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     drawn_as: ClassVar[DrawnAs] = "cylinder"
     file_section: ClassVar[str] = "hydraulics"
     headed: ClassVar[str] = noted("Cylinder {name}")
+    named_in_all: ClassVar[bool] = True
 
     # -- what a subclass says ------------------------------------------------------------------------------
 

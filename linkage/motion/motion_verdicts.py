@@ -66,7 +66,7 @@ class HasVerdicts(Member):
     headed: ClassVar[str] = "{name}"
     """What a page calls it above its verdicts, in English as the catalogues have it."""
     named_in_all: ClassVar[bool] = False
-    """Whether all its rules bear its name where one does."""
+    """Whether all its rules bear its name where there are several of its kind, headed alike."""
 
     def questions(self, judge: Judge) -> list[Question]:
         """Return the questions of its verdicts, so that one pass over the machine answers those of all members.
@@ -388,12 +388,11 @@ def member_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
 
 
 def told_apart(rules: Iterable[tuple[str, str]], members: Mapping[str, HasVerdicts]) -> set[tuple[str, str]]:
-    """Return those of the rules of members that bear their names: those that several follow, and all of who is named in all."""
+    """Return those of the rules of members that bear their names: those that several follow, and all of one of several, such as lines."""
     followed = {(name, rule) for name, rule in rules if not rule.endswith(f" {name}")}
     count = Counter(rule for _, rule in followed)
-    sharing = {name for name, rule in followed if count[rule] > 1}
-    own = {(name, rule) for name, rule in followed if name in sharing and members[name].named_in_all}
-    return own | {(name, rule) for name, rule in followed if count[rule] > 1}
+    alike = Counter(each.headed for each in members.values() if each.named_in_all)
+    return {(name, rule) for name, rule in followed if count[rule] > 1 or (members[name].named_in_all and alike[members[name].headed] > 1)}
 
 
 def batch_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:

@@ -188,6 +188,8 @@ def print_capacity(options: Namespace) -> int:
         way = f"along ({x:g}, {y:g}) at {f'{share:g} of ' if share != 1.0 else ''}{supply}"
         print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
     write_tables(tables, options.csv)
+    if options.csv == "-" and not options.check:
+        return 0
     judge = machine.judge(judged_over(machine, options), Acting(case=case))
     asked = capacity_request(ram, Acting(), circuit, point, unit, share)
     return print_verdicts([capacity_verdict(judge, asked, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)], options)

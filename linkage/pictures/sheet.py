@@ -192,15 +192,18 @@ def write_title(figure: Figure, text: str, beside: str = "") -> None:
         at_right(figure, top, beside, style.TEXT, style.MUTED)
 
 
-def at_right(figure: Figure, level: float, text: str, size: float, colour: str) -> None:
+def at_right(figure: Figure, level: float, text: str, size: float, colour: str) -> Text:
     """Write a text that ends where a sheet does, at a share of the figure's height."""
-    figure.text(1.0 - RIGHT / float(figure.get_figwidth()), level, text, fontsize=size, color=colour, va="center", ha="right")
+    return figure.text(1.0 - RIGHT / float(figure.get_figwidth()), level, text, fontsize=size, color=colour, va="center", ha="right")
 
 
 def remark(figure: Figure, ax: Axes, text: str) -> None:
-    """Write in a warning colour, above the sheet's right end, the omissions of the picture."""
+    """Write in a warning colour, above the sheet's right end, the omissions of the picture; above a legend that reaches so far."""
     if text:
-        at_right(figure, ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight()), text, style.TEXT, style.ACCENT)
+        top, height, legend = ax.get_position(original=True).y1, float(figure.get_figheight()), ax.get_legend()
+        written = at_right(figure, top + 0.13 / height, text, style.TEXT, style.ACCENT)
+        if legend is not None and legend.get_window_extent(renderer_of(figure)).x1 > written.get_window_extent(renderer_of(figure)).x0:
+            written.set_y(top + 0.3 / height)
 
 
 def footnote(figure: Figure, text: str) -> None:

@@ -304,9 +304,13 @@ class MemberLimit:
     is_least: bool
 
     def value(self, motion: AnyMotion, acting: Acting) -> FloatArray:
-        """Return the compared value, shape (...)."""
+        """Return the compared value, shape (...); over a path in time as it runs."""
         request = self.request
-        return request.under(acting, keep=True).law(motion) if isinstance(request, LawRequest) else motion.value(request)
+        if not isinstance(request, LawRequest):
+            return motion.value(request)
+        if isinstance(motion, Motion) and motion.time is not None and request.situation.is_moving:
+            request = replace(request, acting=replace(request.situation, direction=None))
+        return request.under(acting, keep=True).law(motion)
 
     def bounds(self, motion: Motion) -> tuple[FloatArray, FloatArray]:
         """Return between which two values it is kept, to rounding."""

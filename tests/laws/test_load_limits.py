@@ -6,24 +6,28 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief, Tank, capacity
+from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief, Tank, capacity, reserve
 from linkage import (
     LEFT,
+    RIGHT,
     Acting,
     Crank,
     DefinitionError,
     Dyad,
     Force,
+    ForceElement,
     Ground,
     Link,
     Mechanism,
     OnLink,
+    Over,
     PinFriction,
     Rope,
     Stroke,
     Weight,
     angle,
     least,
+    ramp,
     working_field,
 )
 from linkage.pictures.chart_text import ChartText
@@ -262,3 +266,25 @@ def test_friction_counts_in_a_members_condition():
     ways = [Acting(["own", "rubs", pull], direction=way, drive=drive) for way in ("extending", "retracting") for drive in ("a", "t")]
     assert min(float(Rough.chain.tension(motion, acting=each)[0]) for each in ways) > -1e-3
     assert 0.0 < load < 50.0 * g0 * (1.0 + 1e-7)
+
+
+def test_over_a_path_in_time_a_capacity_beside_a_rope_is_that_as_it_runs():
+    """The load that it names uses up the pump beside the machine's own, with friction and a rope."""
+
+    class Hoist(Mechanism):
+        """A boom whose tip draws a rope."""
+
+        u = Stroke(0.0, 0.6)
+        O, A, R, Q = Ground(0, 1.8), Ground(0.15, 0.9), Ground(2.0, 5.0), Ground(4.0, 5.0)
+        B = Dyad(A, O, AB=0.95 + u, OB=1.1, side=RIGHT)
+        T = OnLink(O, B, OT=2.6, BOT=8 * deg)
+        rope = Rope(T, R, "D", length=4.6)
+        D = Dyad(R, Q, RD=rope.last, QD=2.0, side=RIGHT)
+        rubs, hang, load = PinFriction(O, radius=40 * mm, coefficient=0.2), Weight(D, mass=50), Weight(T, mass=600)
+        boom = Cylinder(A, B, bore=80 * mm, rod=45 * mm)
+        lift = LiftCircuit(boom, pressure=180 * bar)
+        run = Over.path(u=ramp(0.05, 0.5, speed=0.2, acceleration=0.5))
+
+    motion = Hoist().sweep(5, over="run")
+    beside = [*Hoist.plan.of_kind(ForceElement), Force("T", (0.0, -1.0 * motion[capacity("boom", "T")]))]
+    assert_allclose(motion[reserve("boom", acting=Acting(beside))], 1.0, rtol=1e-9)

@@ -23,6 +23,7 @@ from ..plan import ArrayReading, Loop, Plan, rate_name
 from ..program import Inputs, Level, Node, ancestors, arrow_function, replaced
 from ..steps import Point
 from .dead_points import REFUSE
+from .evaluation import of_all
 from .requests import Request, RequestLike, bound
 
 REGULAR = (1.0 + math.sqrt(1.0 - 0.3**2)) / 0.3
@@ -78,11 +79,11 @@ def live_source(plan: Plan, requests: Sequence[Request], name: str, design: Mapp
 
 def live_program(plan: Plan, requests: tuple[Request, ...]) -> tuple[str, str, tuple[str, ...], list[int]]:
     """Return the text that declares `sweep`, further declarations, the dimensions in order, and the requests' first rows, made once."""
-    return plan.made(("live", tuple(each.key for each in requests)), lambda twin: live_program_on(twin, requests))
+    return of_all("live", plan, requests, live_program_on)
 
 
 def live_program_on(plan: Plan, requests: Sequence[Request]) -> tuple[str, str, tuple[str, ...], list[int]]:
-    """Return the same, traced in a plan of its own."""
+    """Return the same on a plan, which traces them."""
     nodes = [tuple(true_nodes(plan, each)) for each in requests]
     checks = list(checks_of(plan))
     loops = loops_of(plan)

@@ -23,7 +23,7 @@ from .drive_design import SCHEMES
 from .drives import BoomDrive, DrivenArm
 from .duty import Duty, arm_bound, boom_bound
 from .flow import arm_drive_of, boom_drive_of, design_crane, design_skeleton
-from .load_map import arm_moment, boom_moment, envelope, load_map, strength
+from .lifted_map import arm_moment, boom_moment, envelope, load_map, strength
 from .machine import Crane
 from .skeleton import CraneSkeleton
 

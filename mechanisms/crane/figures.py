@@ -23,7 +23,7 @@ from ..sheets import CURVES, axis_words, beside, curve, dot, headed, titled
 from .drive_report import Movement, WorstMovement, angle_of, worst_movements
 from .drives import BoomDrive, DrivenArm
 from .flow import arm_drive_of, boom_drive_of
-from .load_map import envelope, load_map
+from .lifted_map import envelope, load_map
 from .machine import Crane
 from .skeleton import POSITIONS, CraneSkeleton
 

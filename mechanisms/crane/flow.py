@@ -14,10 +14,11 @@ from linkage import DefinitionError, deg, least, optimise, ref
 from linkage.frozen import immutable
 from linkage.study import Optimum
 
+from .arm_schemes import BellCrankCrane, DirectCrane, DirectCraneAbove
 from .drive_design import DriveDesign, design_arm_drive, design_boom_drive
 from .drives import ArmDrive, BellCrankArmDrive, BoomDrive, DirectArmDrive, DirectArmDriveAbove, DrivenArm
 from .duty import DriveCylinders, Duty, duty_of
-from .machine import BellCrankCrane, Crane, DirectCrane, DirectCraneAbove
+from .machine import Crane
 from .skeleton import BackBrokenSkeleton, CraneSkeleton
 
 SKELETON: Mapping[str, tuple[float, float]] = MappingProxyType(

@@ -10,11 +10,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import ClassVar, Literal
 
-import numpy as np
-
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, Dimension, Dyad, Ground, Link, MPa, OnLink, Over, Rope, Stroke, deg, mm, ref
-from linkage.quantities import Function
+from linkage import LEFT, Dimension, Dyad, Ground, MPa, OnLink, Over, Stroke, deg, mm, ref
 
 from .skeleton import CraneSkeleton
 
@@ -75,77 +72,3 @@ class Crane(CraneSkeleton):
         cases=["lifting", "side_slope"],
     )  # fmt: skip
     transport = Over.path(phi=[phi_0, 90 * deg], psi="psi_0", t=0.0, cases=["lifting", "side_slope"])  # positions 3 and 4
-
-
-class BellCrankCrane(Crane):
-    """The arm's cylinder turns a bell crank, figure 2.13 b: it ends at Z, arm_r8 from V, the crank's third side NZ is arm_r7.
-
-    Its arm drive is that of least weight for the crane's duty, `design_crane(scheme="b")`. Four of its rules fail as they do for `Crane`:
-    the source leaves buckling out, and the boom's cylinder, of its series, is chosen for level ground.
-    """
-
-    arm_r1, arm_r2 = Dimension(0.32124871436223784, unit="m"), Dimension(0.31552816662713545, unit="m")
-    arm_r3, arm_r4 = Dimension(0.14499320871947716, unit="m"), Dimension(0.15071375645457907, unit="m")
-    arm_r5 = Dimension(1.8608284013518728, unit="m")
-    arm_r7, arm_r8 = Dimension(0.3940597365867733, unit="m"), Dimension(0.6689540165284301, unit="m")
-    lug = Dimension(97.27716826015583 * deg, unit="deg")
-    Z = OnLink("V", "N", VZ=arm_r8, NZ=arm_r7, side=LEFT)
-    fold = Cylinder("C", Z, bore=140 * mm, rod=80 * mm, works="both", closed=1.36815290, stroke=0.94415301)
-
-
-class DirectCrane(Crane):
-    """The arm's cylinder CE works straight on the arm from under the boom, figure 2.13 c, and opens it while it grows.
-
-    C lies arm_r2 from J towards O and arm_r1 under the boom, E arm_r3 along the arm and arm_r4 on its inner side. It folds to psi_0
-    alone: the tip stays outside the guard (2.13), and the arm does not hang upright over the stakes (2.11).
-    """
-
-    reading = ">="
-    psi = Stroke(60 * deg, 180 * deg)
-    psi_0 = Dimension(60 * deg, unit="deg")
-    arm_r1, arm_r2 = Dimension(0.4492148181122634, unit="m"), Dimension(1.6781651004411702, unit="m")
-    arm_r3, arm_r4 = Dimension(0.4416710513890326, unit="m"), Dimension(0.2376687576625114, unit="m")
-    arm_r5 = arm_r6 = lug = bend = V = N = None  # type: ignore[assignment]
-    U = OnLink("J", "O", JU=arm_r2)
-    C = OnLink(U, "J", UC=arm_r1, JUC=-90 * deg)
-    E = OnLink("J", "K", JE=np.sqrt(arm_r3**2 + arm_r4**2), KJE=-Function("arctan2", arm_r4, arm_r3))
-    fold = Cylinder(C, E, bore=125 * mm, rod=70 * mm, works="both", closed=1.26518273, stroke=0.86518275)
-    loading = Over.path(
-        phi=["phi_k", "phi_0", "phi_0", "phi_0"], psi=["psi_k", "psi_k", "psi_k", psi_0], t=["l_t", "l_t", 0.0, 0.0],
-        cases=["lifting", "side_slope"],
-    )  # fmt: skip
-
-
-class DirectCraneAbove(DirectCrane):
-    """The same from above the boom, figure 2.13 d: the cylinder folds the arm while it grows.
-
-    arm_r1 is above the boom, arm_r4 on the arm's outer side; E may lie behind J, arm_r3 below zero.
-    """
-
-    arm_r1, arm_r2 = Dimension(0.2750521935589255, unit="m"), Dimension(2.1023482347921223, unit="m")
-    arm_r3, arm_r4 = Dimension(-0.5539127439490062, unit="m"), Dimension(0.37390717774539667, unit="m")
-    C = OnLink("U", "J", UC=arm_r1, JUC=90 * deg)
-    E = OnLink("J", "K", JE=np.sqrt(arm_r3**2 + arm_r4**2), KJE=Function("arctan2", arm_r4, arm_r3))
-    fold = Cylinder(C, E, bore=125 * mm, rod=70 * mm, works="both", closed=1.55158782, stroke=1.15158784)
-
-
-class ChainCrane(Crane):
-    """The telescope's cylinder pushes its first section, chains draw the second, which runs twice the cylinder's way (figure 2.2).
-
-    Cylinder RD moves the first section DZ. `chain` runs from X on the arm over a sheave at D to the end Y of the second section and draws
-    it out. `back` runs from K over a sheave at Z to Y and draws it in. The sheaves stand as pins along the arm; where is illustrative.
-    """
-
-    chain_bore, chain_rod = Dimension(90 * mm, unit="mm"), Dimension(56 * mm, unit="mm")
-    chain_anchor, chain_tail = Dimension(1.2, unit="m"), Dimension(0.6, unit="m")  # X and Y from J, the telescope in
-    first = 0.5 * ref("t")                                # how far the cylinder has pushed the first section, m
-    D = OnLink("J", "K", JD=ref("l_p") + first)
-    Z = OnLink(D, "J", DZ=ref("l_p") - 0.75 * chain_tail)
-    X = OnLink("J", "K", JX=chain_anchor)
-    chain = Rope(X, D, "Y", length=2.0 * ref("l_p") - chain_anchor - chain_tail)
-    Y = OnLink("J", "K", JY=ref("l_p") + first - chain.last)
-    T = OnLink(Y, "K", YT=ref("l_p") - chain_tail)
-    back = Rope("K", Z, Y, against=chain)
-    inner, outer = Link(D, Z), Link(Y, T)
-    extend = Cylinder("R", D, bore=chain_bore, rod=chain_rod, works="both", closed=2.915, stroke=1.267)
-    extend_line = LiftCircuit(extend, pressure=22 * MPa, mechanical_efficiency=0.95)

@@ -37,7 +37,7 @@ from mechanisms.crane import (
     with_drives,
 )
 from mechanisms.crane.drive_report import MOVEMENTS
-from mechanisms.crane.load_map import dragging
+from mechanisms.crane.lifted_map import dragging
 from tests.for_all import first_daily
 
 FOUND = {  # example 1 of the source, both readings of (2.13): W_m and the variables

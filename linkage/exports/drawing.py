@@ -19,8 +19,7 @@ import numpy as np
 from ..errors import known_name
 from ..loads import PinFriction
 from ..motion import Motion
-from ..pictures.labels import half_of, offsets
-from ..pictures.layout import label_free, props
+from ..pictures.layout import half_of, label_free, offsets, props
 from ..pictures.scene import DrawnMark, Places, Scene
 from ..pictures.shapes import left_of, polar, segment
 from ..program import FloatArray

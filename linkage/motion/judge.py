@@ -682,9 +682,7 @@ class Judge:
 
     def situation(self, answer: Answer) -> Acting:
         """Return the situation of an answer of one design, as requests and forces take it."""
-        case = answer.case if answer.case not in ("", PLAIN_CASE) else None
-        case = case or self.acting.case
-        return replace(self.acting, case=case, direction=answer.direction or None, drive=answer.drive or None)
+        return Situation(answer.case, answer.direction, answer.drive).acting.within(self.acting)
 
     def there(self, answer: Answer) -> Motion:
         """Return the pose of an answer of one design, of a path as it goes on there, of one in time at its instant."""

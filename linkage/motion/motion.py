@@ -24,14 +24,13 @@ from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Numbers, Vec
 from . import dead_points, stroke_search
-from .by_time import point_by_time
 from .dead_points import NOWHERE, Conditioning
 from .evaluation import BulkProgram, Evaluation, examined, guard_masks, other_law_error
 from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
 from .instants import Instants
 from .limits import Limits, no_joint, refuse_at, span_text, stroke_unit, where_words
 from .over import Over, with_strokes
-from .poles import body_points, body_rates, pole_of, whole_body
+from .poles import body_rates, point_by_time, pole_of, whole_body
 from .requests import (
     Request,
     RequestLike,
@@ -711,8 +710,8 @@ class Motion(Shown):
         given = rates if rates is not None else own or {stroke_of(self.plan, wrt): np.ones(())}
         if rates is not None and wrt is not None:
             raise DefinitionError(f"{self.plan.title}: pole(wrt=..., rates=...): rates say already which strokes move; leave out wrt=.")
-        of_body, of_other = body_points(self.plan, body), body_points(self.plan, other)
-        if whole_body(self.plan, body) == whole_body(self.plan, other):
+        of_body, of_other = whole_body(self.plan, body), whole_body(self.plan, other)
+        if of_body == of_other:
             raise DefinitionError(f"{self.plan.title}: pole({cited(body)}, {cited(other)}): these are one body; name two.")
         moving = {name: self.velocity(name, given) for name in self.plan.points}
         speeds = [np.hypot(rate[0], rate[1]) for rate in moving.values()]

@@ -264,11 +264,8 @@ class StrokeLine:
 
     def kernel_inputs(self, x: FloatArray) -> dict[str, Any]:
         """Return the inputs of the program at values of the stroke."""
-        grid = self.motion._grid
-        if not self.plan.solved:
-            return {**grid.flat_designs, **self.held, self.name: x}
         strokes = {name: x if name == self.name else np.full(x.shape, self.held[name]) for name in self.plan.strokes}
-        return Grid(self.plan, grid.flat_designs, strokes).flat
+        return Grid(self.plan, self.motion._grid.flat_designs, strokes).flat
 
     def seen(self, x: FloatArray) -> FloatArray:
         """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""

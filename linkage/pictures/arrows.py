@@ -19,7 +19,7 @@ from ..program import FloatArray
 from ..units import current_system, factor, shown_in
 from ..vectors import Mask
 from . import style
-from .labels import distance_to_box
+from .layout import distance_to_box
 from .scene import Bounds
 from .shapes import left_of, lines_cross, polar, segment
 from .sheet import Keywords, figure_of, haloed, points_a_metre, renderer_of

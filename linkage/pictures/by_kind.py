@@ -16,17 +16,15 @@ from ..reports import NOTHING
 from ..study import Optimum, WorkingField
 from ..synthesis import Synthesis
 from ..synthesis.exact_poses import Burmester
-from .burmester import draw_burmester
 from .chain import draw_chain
 from .curves import plot_machine, plot_motion
-from .designs import draw_designs
+from .designs import draw_designs, draw_modes
 from .force_arrows import force_question
 from .load_chart import plot_field
-from .mode_page import draw_modes
 from .optimum import draw_optimum, plot_optimum
 from .overlays import Overlays
 from .poses import draw_machine
-from .synthesis import draw_synthesis
+from .synthesis import draw_burmester, draw_synthesis
 
 if TYPE_CHECKING:
     import networkx as nx

@@ -18,8 +18,7 @@ from ..quantities import Quantity, Stroke, source_text
 from ..units import shown_number
 from . import style
 from .drawing import draw_scene
-from .labels import is_inside
-from .layout import cloud
+from .layout import cloud, is_inside
 from .scene import Bounds, Places, Scene
 from .shapes import left_of, polar, segment
 from .sheet import Keywords, haloed, points_a_metre, sheet

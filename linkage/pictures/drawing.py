@@ -21,8 +21,7 @@ from ..errors import FileError, require_type
 from ..motion import Motion
 from ..program import FloatArray
 from . import style
-from .labels import LED, MINOR, distance_to_box, half_of, offsets
-from .layout import BASE, HATCH, hatched, label_free, props
+from .layout import BASE, HATCH, LED, MINOR, distance_to_box, half_of, hatched, label_free, offsets, props
 from .scene import DrawnMark, Places, Plate, Pose, Scene
 from .shapes import SLOT, left_of, polar, rounded_outline
 from .sheet import MOST_PIXELS, Keywords, haloed_beside, pixels_text, points_a_metre, sheet

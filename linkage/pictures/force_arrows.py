@@ -19,8 +19,7 @@ from ..statics import JointForce, PinForces
 from ..statics.joint_forces import joint_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
-from .drawn_loads import centre_of_mass, drawn_together, on_its_line, resultant
-from .shown_values import bodies_shown, short_name
+from .shown_values import bodies_shown, centre_of_mass, drawn_together, on_its_line, resultant, short_name
 from .strokes import pose_words
 
 PIN, LOAD, MEMBER, GROUND = "#0072b2", "#d55e00", "#007f5c", "#000000"

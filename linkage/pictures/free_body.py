@@ -13,8 +13,7 @@ from . import arrows, style
 from .arrows import ArrowLayer, Wording
 from .drawing import LabelPart, MarkPart, MovingPart, body_part, pin, polygon
 from .force_arrows import ForceQuestion, drawn_body, force_layer, forces_at_pose
-from .labels import offsets
-from .layout import grown
+from .layout import grown, offsets
 from .overlays import sheet_note
 from .scene import Places, Plate, Scene
 from .shapes import hull, segment

@@ -24,8 +24,7 @@ from ..units import factor, mm, shown_in
 from . import style
 from .curves import WIDEST, axis_range, mark_limit, panel_grid, stroke_panel
 from .drawing import arrow_between, draw_scene
-from .labels import offsets
-from .layout import joined_box, label_free
+from .layout import joined_box, label_free, offsets
 from .scene import Places, Scene
 from .sheet import haloed_beside, legend_row, look_keys, points_a_metre, sheets_beside, write_title
 from .shown_values import leaf_bound, limit_on, typeset

@@ -28,8 +28,7 @@ from ..reports import LiveColumn, column_requests, friction_of_columns, is_chang
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system, units_shown
 from ..verdict import Verdict
-from .labels import offsets
-from .layout import label_free, props
+from .layout import label_free, offsets, props
 from .page_file import EVENTS, MACHINE, START, PageData, page_part, page_text, tight
 from .page_forces import force_arrows, page_situations, situated_requests, situated_rows
 from .page_judge import LiveQuestions, course_data, rule_key, share_used, unit_data

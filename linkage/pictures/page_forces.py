@@ -29,8 +29,7 @@ from ..statics import (
     rates_in,
 )
 from ..statics.applied import case_of
-from .drawn_loads import centre_beside, centre_of_mass, drawn_together, on_its_line, resultant
-from .shown_values import bodies_shown, short_name
+from .shown_values import bodies_shown, centre_beside, centre_of_mass, drawn_together, on_its_line, resultant, short_name
 
 AnyRequest = TypeVar("AnyRequest")
 LoadKey: TypeAlias = tuple[str, str, tuple[str, ...]]

@@ -1,24 +1,29 @@
-"""Columns, their limits, points and headings as pictures and pages show them."""
+"""Columns, their limits, points, headings and forces as pictures and pages show them."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import reduce
+from operator import add
 from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import ensure, fits_shape, is_listed, known_name, require, require_type
 from ..language import noted, said
+from ..loads import ForceElement, Load
 from ..mechanism import Mechanism
 from ..motion import Column, Motion
 from ..motion.measures import Constraint, FixedNumber, Leaf, Least, Most
 from ..motion.requests import may_be_unlimited
+from ..plan import Plan
 from ..plan.members import FRAME
 from ..program import FloatArray
 from ..quantities import is_number, joined_names
 from ..statics import JointForce, LawRequest, PinForces
 from ..units import factor, require_measure
+from .shapes import left_of
 from .style import part_of_points
 
 
@@ -139,3 +144,46 @@ def short_name(found: PinForces, body: str) -> str:
     if known.label or (len(own) == len(known.points) and len("".join(each.rpartition(".")[2] for each in own)) <= MOST_LETTERS):
         return known.label or body
     return f"{joined_names(*(own if len(own) > 1 else known.points)[:2])}\N{HORIZONTAL ELLIPSIS}"
+
+
+def resultant(acting: Sequence[tuple[FloatArray, FloatArray]]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the sum of forces that act at places (2, ...) [N], their moment about the middle of these [N m], and that middle [m]."""
+    force: FloatArray = reduce(add, [each for _, each in acting])
+    middle: FloatArray = reduce(add, [place for place, _ in acting]) / len(acting)
+    moment: FloatArray = reduce(add, [(place - middle)[0] * each[1] - (place - middle)[1] * each[0] for place, each in acting])
+    return force, moment, middle
+
+
+def on_its_line(force: FloatArray, moment: FloatArray, place: FloatArray, centre: FloatArray | None) -> FloatArray:
+    """Return where a force with a moment about a place is drawn (2, ...) [m]: on its line of action, next to the centre of a mass."""
+    square = force[0] ** 2 + force[1] ** 2
+    found: FloatArray = place - left_of(force) * (moment / square)
+    return found if centre is None else np.asarray(found + force * (((centre - found) * force).sum(axis=0) / square))
+
+
+def centre_of_mass(place: Callable[[str], FloatArray], plan: Plan, element: str) -> FloatArray | None:
+    """Return the centre of a body's own mass that is declared beside its points (2, ...) [m], None of all else."""
+    beside = centre_beside(plan, element)
+    if beside is None:
+        return None
+    P, Q, (along, left) = place(beside[0]), place(beside[1]), beside[2]
+    way = (Q - P) / np.hypot(Q[0] - P[0], Q[1] - P[1])
+    return np.asarray(P + along * way + left * left_of(way))
+
+
+def drawn_together(found: PinForces, loads: Iterable[Load]) -> dict[tuple[str, str, str], list[Load]]:
+    """Return loads by element, body and, of a rope, point: those of a group are one arrow."""
+    plan, groups = found.motion.plan, dict[tuple[str, str, str], list[Load]]()
+    elements = plan.of_kind(ForceElement).items()
+    ropes = {name for name, each in elements if any(glyph.drawn_as == "rope" for glyph in each.glyphs(plan.members))}
+    for load in loads:
+        element = load.element.partition("(")[0]
+        groups.setdefault((element, found._body_under(load), load.point if load.element in ropes else ""), []).append(load)
+    return groups
+
+
+def centre_beside(plan: Plan, element: str) -> tuple[str, str, tuple[float, float]] | None:
+    """Return where the centre of a body's own mass lies beside its points: from the first of two towards the second, and to the left."""
+    found = plan.of_kind(ForceElement).get(element)
+    glyphs = found.glyphs(plan.members) if found is not None else ()
+    return next(((glyph.points[0], glyph.points[1], glyph.away) for glyph in glyphs if glyph.away is not None), None)

@@ -39,8 +39,7 @@ from linkage.cli.machines import find
 from linkage.exports.calculation import Calculation, live_results
 from linkage.exports.drawing import Circle, Lettering, Measured, pose_parts
 from linkage.exports.workbook import GIVEN, cell_names, formula, from_si, to_si
-from linkage.pictures.labels import half_of
-from linkage.pictures.layout import props
+from linkage.pictures.layout import half_of, props
 from linkage.pictures.scene import Scene
 from linkage.reports import results, run_of, stroke_middles
 from linkage.units import UNITS, deg, kgf_cm2, mm

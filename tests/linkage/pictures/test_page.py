@@ -53,7 +53,7 @@ from linkage.cli.settings import design_from as design_of
 from linkage.files import load
 from linkage.motion import live_text
 from linkage.pictures import page_html
-from linkage.pictures.chart_page import chart_page
+from linkage.pictures.browser import chart_page
 from linkage.pictures.chart_text import ChartText
 from linkage.pictures.page_data import PageRequests, limit_data, named_in_code, scene_data
 from linkage.pictures.page_file import bare, page_part, said_in, tight

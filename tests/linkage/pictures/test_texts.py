@@ -18,7 +18,7 @@ from linkage import RIGHT, Crank, Dyad, Force, Ground, Mechanism, OnLink, Stroke
 from linkage.pictures.arrows import EDGE, ArrowLayer, VectorArrow, draw_arrows, place_wordings, wordings
 from linkage.pictures.drawing import LabelPart
 from linkage.pictures.force_arrows import PIN, ForceQuestion, forces_at_pose, short_name
-from linkage.pictures.labels import offsets
+from linkage.pictures.layout import offsets
 from linkage.pictures.shapes import lines_cross
 from linkage.pictures.sheet import empty_figure, points_a_metre, sheet
 from linkage.pictures.style import STRONG

@@ -140,7 +140,7 @@ def definition_section(machine: Mechanism) -> Section:
     order = said("In the order in which the positions are worked out; lengths in m, angles in rad where no deg is marked.")
     members = TableBlock(said("Declarations"), heads, rows, "lm")
     rigid = TableBlock(said("Rigid bodies"), (said("name"), said("points")), bodies, "lm")
-    return Section(said("Definition of the mechanism"), (order, members, rigid, count))
+    return Section(said("Definition of the mechanism"), (order, count, members, rigid))
 
 
 OF_PART = re.compile(r", \*\*\{.*\}")

@@ -480,6 +480,9 @@ def remarks_on(found: PoseForces) -> Iterator[str]:
                 "weight on it, or take a rod.",
                 name=name, where=where, push=push,
             )  # fmt: skip
+    geared = found.structure.turned_by_gears()
+    if geared:
+        yield said("{names}: turned by gears, the forces between whose teeth are left out of the pin forces.", names=", ".join(geared))
     yield from tipping_words(motion, applied.acting)
 
 

@@ -452,6 +452,11 @@ class Structure:
         count = Counter(frozenset(names) for _, joint in self.plan.joints for names in self.followed(joint)[0].values())
         return {names for names, joints in count.items() if self.is_taken({*names}) and joints > len(names)}
 
+    def turned_by_gears(self) -> tuple[str, ...]:
+        """Return the cranks whose couples gears give: geared to a body, or to each other on a stroke that is taken over."""
+        coupled = [each for each in self.contacts if "c" in each.holds and frozenset(self.followed(each.joint)[0]["c"]) in self.geared]
+        return tuple(dict.fromkeys(each.owner for each in (*coupled, *(gear.crank for gear in self.gears))))
+
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
         """Yield the drives of a contact: the quantity, the letter of the force that is conjugate to it, and its sign."""
         for drive in contact.joint.drives:

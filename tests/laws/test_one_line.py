@@ -635,7 +635,7 @@ class Tailgate(Mechanism):
     up = OilLine(hoist.piston_side, Pump(200 * bar))
 
 
-@for_all("seed", (1, 7, -1), slow=(0, *range(2, 7), *range(8, 21)))
+@for_all("seed", (1, 7), slow=(-1, 0, *range(2, 7), *range(8, 21)))
 def test_no_verdict_tells_a_number_that_is_none(seed):
     machine = Tailgate if seed < 0 else past_its_dead_point(seed)
     told = [str(each) for each in machine().verdicts()]
@@ -665,7 +665,7 @@ def flap(seed):
     return Flap()
 
 
-@for_all("seed", range(2), slow=range(2, 10))
+@for_all("seed", (0,), slow=range(1, 10))
 def test_a_cylinder_past_its_dead_point_has_the_pressure_of_its_line(seed):
     machine, angles = flap(seed), np.radians([-5.0, 40.0, 60.0, 80.0])
     motion = machine.at(phi=angles)

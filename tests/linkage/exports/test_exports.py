@@ -58,8 +58,6 @@ POSES = 7
 PAPERS = {"mower": MowerLift, "header": HeaderBalancer, "hitch": ThreePointHitch}
 DAILY = first_daily(1, "name", PAPERS)
 SHIPPED = shipped.MACHINES
-OTHERS = ("hitch", "header")
-"""Those that LibreOffice is asked about under `slow`, in a run of their own: it takes seconds for each."""
 CHANGED = {"hitch": ("OB", 0.305), "header": ("charge", 36 * kgf_cm2), "mower": ("OB", 0.176)}
 
 
@@ -114,20 +112,19 @@ def of_parts(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def recalculated(books, iterated, of_parts, tmp_path_factory):
+def recalculated(iterated, of_parts, tmp_path_factory):
     """Workbooks as LibreOffice works them out, as they are and with a dimension changed, all in one run."""
     folder = tmp_path_factory.mktemp("recalculated")
     turned = export(Turned(), folder / "turned.xlsx", count=25)
     length = next(name for name in reversed(StephensonTwo().dimensions) if "." not in name)
-    changes = {"iterated": (length, 1.01 * StephensonTwo().dimensions[length]), "parts": ("right.R1B2", 0.31), "mower": CHANGED["mower"]}
-    known = {"mower": books["mower"], "iterated": iterated, "parts": of_parts}
-    return by_office(folder, {"turned": (turned, [])} | changed_too(known, changes))
+    changes = {"iterated": (length, 1.01 * StephensonTwo().dimensions[length]), "parts": ("right.R1B2", 0.31)}
+    return by_office(folder, {"turned": (turned, [])} | changed_too({"iterated": iterated, "parts": of_parts}, changes))
 
 
 @pytest.fixture(scope="module")
 def larger_recalculated(books, tmp_path_factory):
-    """The workbooks of the other papers likewise."""
-    return by_office(tmp_path_factory.mktemp("larger"), changed_too({name: books[name] for name in OTHERS}, CHANGED))
+    """The workbooks of the papers likewise, under `slow`: it takes seconds for each."""
+    return by_office(tmp_path_factory.mktemp("larger"), changed_too({name: books[name] for name in PAPERS}, CHANGED))
 
 
 def changed_too(known, changes):
@@ -181,9 +178,9 @@ def test_the_calculation_has_the_numbers_and_the_order_of_the_equations(books, n
 
 @pytest.mark.slow
 @needs_office
-@first_daily(1, "name", ["mower", *OTHERS])
-def test_another_program_finds_the_same_numbers_and_those_of_a_changed_dimension(books, request, name):
-    found = request.getfixturevalue("larger_recalculated" if name in OTHERS else "recalculated")
+@pytest.mark.parametrize("name", PAPERS)
+def test_another_program_finds_the_same_numbers_and_those_of_a_changed_dimension(books, larger_recalculated, name):
+    found = larger_recalculated
     assert same_numbers(stored(books[name]), found[name]) is None
     dimension, value = CHANGED[name]
     changed = PAPERS[name]().replaced(**{dimension: value})

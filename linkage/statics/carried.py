@@ -376,7 +376,7 @@ def greatest_kept(spare: Callable[[FloatArray], FloatArray], alone: FloatArray, 
     at_low, at_high = alone, spare(high)
     held = np.where(alone >= 0.0, np.where(at_high >= 0.0, np.inf, 1.0), 0.0)
     guess = np.where((guess > 0.0) & (guess < MOST), guess, 0.5 * MOST)
-    for _ in range(NARROWED):
+    for step in range(NARROWED):
         value = spare(guess)
         is_kept, is_met = value >= 0.0, np.abs(value) <= 1e-2 * STRAIGHT * np.abs(alone)
         at_low, at_high = np.where(is_kept, value, 0.5 * at_low), np.where(is_kept, 0.5 * at_high, value)
@@ -385,6 +385,8 @@ def greatest_kept(spare: Callable[[FloatArray], FloatArray], alone: FloatArray, 
             break
         with np.errstate(divide="ignore", invalid="ignore"):
             found = (low * at_high - high * at_low) / (at_high - at_low)
+        if step % 3 == 2:  # by magnitude, where a steep law draws every line to one end
+            found = np.where(low > 0.0, np.sqrt(low * high), 1e-3 * high)
         guess = np.clip(np.where(np.isfinite(found), found, low), low, high)  # a pose without a value keeps a load
     return np.where(np.isnan(alone), np.nan, np.where(held == 1.0, low, held))
 

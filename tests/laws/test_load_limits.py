@@ -38,7 +38,7 @@ from tests.for_all import first_daily
 
 def test_the_greatest_load_that_is_kept_spares_nothing_whatever_the_guess():
     alone, limit = np.array([5.0, 5e3, 1e5]), np.array([3e4, 2.0, 7e5])
-    for power, guess in product((0.5, 1.0, 1.5), (np.nan, 10.0, 1e6)):
+    for power, guess in product((0.5, 1.0, 1.5, 3.0, 5.0), (np.nan, 10.0, 1e6)):
         found = greatest_kept(lambda load, power=power: alone * (1.0 - (load / limit) ** power), alone, np.full(3, guess))
         assert_allclose(found, limit, rtol=1e-10)
     alone = np.array([1.0, -1.0, np.nan])

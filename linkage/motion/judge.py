@@ -7,7 +7,7 @@ cannot be assembled or a law gives no number, unlimited where a law has no bound
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
@@ -826,25 +826,22 @@ class Judge:
 
     # -- from leaves to questions ------------------------------------------------------------------------
 
-    def candidates(self, question: object, number: int) -> list[tuple[Domain, Candidate]]:
-        """Return a constraint, or a bare measure, in every situation over one `Over`, by its number, each with where it is looked at."""
-        leaves, of_poses = leaves_of(question), is_at_poses(question)
+    def candidates(self, question: object, number: int, design: tuple[int, ...]) -> Iterator[tuple[Domain, Candidate]]:
+        """Yield a constraint, or a bare measure, of one design in every situation over one `Over`, by its number, each with its domain."""
+        leaves, of_poses, shape = leaves_of(question), is_at_poses(question), self.motion._design_shape
         place, seen = (self.anywhere, None) if of_poses else (self.places[number], self._seen[number])
-        made = []
-        of_leaves = [self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]
+        known = (self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves)
+        of_leaves = [[each.of_design(design, shape) for each in pieces] for pieces in known]
         for chosen in combined_pieces(of_leaves if is_worst_bound(question) else [*map(worst_pieces, of_leaves)]):
-            values = {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)}
             with np.errstate(all="ignore"):
-                value, margin = valued(question, values)
-            unbounded = np.asarray(np.any([each.unbounded for each in chosen], axis=0) if chosen else False)
+                value, margin = valued(question, {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)})
             where, time, leg = next(((each.strokes, each.time, each.leg) for each in chosen if each.strokes), ({}, np.nan, -1))
-            lawless = np.asarray(reduce(np.fmax, (each.lawless for each in chosen), 0.0))
-            unlimited = np.asarray(reduce(np.fmax, (each.unlimited for each in chosen), 0.0))
-            undefined = np.asarray(np.isnan(margin) & ~np.any([np.isnan(each.value) for each in chosen], axis=0))
+            lawless = reduce(np.fmax, (each.lawless for each in chosen), 0.0)
+            unlimited = reduce(np.fmax, (each.unlimited for each in chosen), 0.0)
+            undefined = np.isnan(margin) and not any(np.isnan(each.value) for each in chosen)
+            unbounded = np.asarray(np.any([each.unbounded for each in chosen]))
             rows = tuple(each.rows[0] for each in chosen)
-            found = Candidate(rows, value, where, unbounded, lawless, unlimited, np.asarray(time), leg, margin, undefined, seen)
-            made.append((place, found))
-        return made
+            yield place, Candidate(rows, value, where, unbounded, lawless, unlimited, time, leg, margin, undefined, seen, design)
 
     def lost_of(self, place: Domain, candidate: Candidate) -> LostPlaces:
         """Return the lost places of a candidate of one design."""
@@ -863,13 +860,12 @@ class Judge:
 
     def worst(self, question: object, constraints: Sequence[object]) -> Answer:
         """Return the answer to a question: its worst in every situation over every `Over`, for a batch per design."""
-        count = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1
-        candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number)]
-        if not candidates:
-            raise DefinitionError(f"{self.plan.title}: {question}: there is nothing to ask it of.")
-        shape = np.broadcast_shapes(*(np.shape(each.margin) for _, each in candidates))
-        of_designs = ([(place, each.of_design(design, shape)) for place, each in candidates] for design in np.ndindex(shape))
-        return of_batch([self.answered(question, each) for each in of_designs], shape)
+        count, found = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1, list[Answer]()
+        for design in np.ndindex(self.motion._design_shape):
+            candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number, design)]
+            ensure(candidates, f"{self.plan.title}: {question}: there is nothing to ask it of.")
+            found.append(self.answered(question, candidates))
+        return of_batch(found, self.motion._design_shape)
 
     def answered(self, question: object, found: Sequence[tuple[Domain, Candidate]]) -> Answer:
         """Return the answer of one design, with the names of load case, movement and `Over` where there are several."""
@@ -1034,21 +1030,16 @@ def is_worst_bound(question: object) -> bool:
 
 
 def worst_pieces(pieces: Sequence[Candidate]) -> list[Candidate]:
-    """Return the worst of the pieces of a leaf in each situation, the first of equal ones, design by design."""
+    """Return the worst of the pieces of a leaf of one design in each situation, the first of equal ones."""
     found: dict[Situation, Candidate] = {}
     for each in pieces:
         known = found.setdefault(each.situation, each)
-        if known is each:
-            continue
-        (one,), (other,) = known.rows, each.rows
-        with np.errstate(invalid="ignore"):
-            takes = np.asarray((other.sense * (each.value - known.value) > 0.0) | np.isnan(known.value))
-        side = each.side if takes.all() else "" if takes.any() else known.side
-        row = replace(one, piece=replace(one.piece, side=side))
-        own = {name: np.where(takes, getattr(each, name), getattr(known, name)) for name in ("value", "unbounded", "time")}
-        strokes = {name: np.where(takes, value, known.strokes[name]) for name, value in each.strokes.items()}
-        lawless, unlimited = np.maximum(known.lawless, each.lawless), np.minimum(known.unlimited, each.unlimited)
-        found[row.situation] = replace(known, rows=(row,), strokes=strokes, lawless=lawless, unlimited=unlimited, **own)
+        if known is not each:
+            (one,), (other,) = known.rows, each.rows
+            worst = each if np.isnan(known.value) or other.sense * (each.value - known.value) > 0.0 else known
+            row = replace(one, piece=replace(one.piece, side=worst.side))
+            lawless, unlimited = max(known.lawless, each.lawless), min(known.unlimited, each.unlimited)
+            found[row.situation] = replace(worst, rows=(row,), lawless=lawless, unlimited=unlimited)
     return [*found.values()]
 
 

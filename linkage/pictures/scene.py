@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import DefinitionError, ensure, require
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
+from ..motion.strokes import strokes_over_axes
 from ..plan import WIDE, member_sides
 from ..program import FloatArray
 from ..quantities import Quantity, Where, is_whole, joined_names, needs
@@ -535,9 +536,8 @@ class Scene:
     def _ends(self) -> Motion:
         """The motion at the corners of the declared strokes."""
         plan = self.motion.plan
-        corners = np.array(list(product(*((stroke.start, stroke.end) for stroke in plan.strokes.values()))))
-        values = {name: corners[:, column] for column, name in enumerate(plan.strokes)}
-        return Motion(plan, self.motion.designs, values, "nan")
+        ends = {name: np.array([stroke.start, stroke.end]) for name, stroke in plan.strokes.items()}
+        return Motion(plan, self.motion.designs, strokes_over_axes(ends), "nan")
 
     @cached_property
     def tracks(self) -> tuple[SlideTrack, ...]:

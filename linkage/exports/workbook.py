@@ -30,7 +30,7 @@ from ..statics.applied import case_of
 from ..study import WorkingField
 from ..study.working_field import OUT_OF_REACH
 from ..units import deg, factor, g0, shown_in
-from .calculation import Calculation, live_results
+from .calculation import ITERATED, Calculation, live_results
 from .extras import library
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class Sheets:
         self.results = live_results(calculation)
         self.count = calculation.motion.shape[0]
         self.top = int(bool(calculation.headings))
-        self.above = ROWS_ABOVE + self.top
+        self.above, self.misfit = ROWS_ABOVE + self.top, CHANGED
         ink = "#1F2933"
         head = {"bold": True, "bg_color": "#EEF1F4", "font_color": ink, "border": 1, "border_color": "#C9D1D9", "valign": "top"}
         self.head = book.add_format(head)
@@ -189,6 +189,7 @@ class Sheets:
         places = [place for place, column in enumerate(self.calculation.columns) if column.checks]
         if not places:
             return
+        self.misfit = f"Dimensions!$A${row + 1}"
         ranges = [self._range("Calculation", self._sheet_column(place), self.above) for place in places]
         worst = ",".join(f"MAX({each}),-MIN({each})" for each in ranges)
         pins = " ".join(self.calculation.equations._listing.unknowns)
@@ -261,6 +262,27 @@ class Sheets:
         symbols = [*self.calculation.stroke_symbols.values(), *(each.symbol for each in self.calculation.columns)]
         return {symbol: column_letters(1 + place) for place, symbol in enumerate(symbols)}
 
+    @cached_property
+    def _outdated_by(self) -> dict[sympy.Symbol, str]:
+        """The cells that tell, once they have a text, that a column of the calculation is left behind: of given ones and what follows them.
+
+        Pins found by iteration hold as long as they fit; other given numbers until an input is changed.
+        """
+        found: dict[sympy.Symbol, str] = {}
+        for each in self.calculation.columns:
+            if each.expr is None:
+                found[each.symbol] = self.misfit if each.meaning.endswith(ITERATED) else CHANGED
+            elif not each.checks and (cell := self._outdating(each.expr, found)):
+                found[each.symbol] = cell
+        return found
+
+    def _outdating(self, expr: sympy.Expr | None, known: Mapping[sympy.Symbol, str]) -> str:
+        """Return the cell that tells that a formula's value, or a number without one, is left behind; "" where it never is."""
+        if expr is None:
+            return CHANGED
+        cells = {known[symbol] for symbol in expr.free_symbols & known.keys()}
+        return CHANGED if CHANGED in cells else next(iter(cells), "")
+
     def _cell_formula(self, expr: sympy.Expr, sheet: str = "") -> str | None:
         """Return an expression as a formula with ROW_MARK where the row's number goes; None for one that is too long.
 
@@ -292,7 +314,8 @@ class Sheets:
         for place, text in self.calculation.headings.items():
             sheet.write_string(0, self._sheet_column(place), text, self.part)
         for place, each in enumerate(self.calculation.columns):
-            self._heading(sheet, self._sheet_column(place), (each.number, each.name, each.unit, each.meaning), dead=each.expr is None)
+            texts = each.number, each.name, each.unit, each.meaning
+            self._heading(sheet, self._sheet_column(place), texts, each.expr is None, self._outdated_by.get(each.symbol, ""))
             look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
             template = None if each.expr is None else self._cell_formula(each.expr)
             for pose, value in enumerate(each.values.tolist()):
@@ -305,18 +328,18 @@ class Sheets:
                 self._number(sheet, row, self._sheet_column(place), formula_here, value, look)
         sheet.freeze_panes(self.above, 1 + len(strokes))
 
-    def _heading(self, sheet: Worksheet, column: int, texts: Sequence[str], dead: bool = False) -> None:
+    def _heading(self, sheet: Worksheet, column: int, texts: Sequence[str], dead: bool = False, outdating: str = "") -> None:
         for row, text in enumerate(texts):
-            if row == 3 and dead:
-                self._given(sheet, self.top + row, column, text)
+            if row == 3 and outdating:
+                self._given(sheet, self.top + row, column, text, outdating)
             else:
                 sheet.write_string(self.top + row, column, text, self.wrapped if row == 3 else self.dead_head if dead else self.head)
 
-    def _given(self, sheet: Worksheet, row: int, column: int, text: str) -> None:
-        """Write a heading over numbers that follow no input: once one is changed it says so, and they are struck out."""
+    def _given(self, sheet: Worksheet, row: int, column: int, text: str, cell: str) -> None:
+        """Write a heading over numbers that do not follow all inputs: once a cell tells of a change it says so, and they are struck."""
         plain = shorten(text.replace('"', "'"), 250, placeholder=" …")  # a text in a formula has 255 letters at most
-        sheet.write_formula(row, column, f'=IF({CHANGED}="","{plain}","{GIVEN}")', self.dead_wrapped, plain)
-        rule = {"type": "formula", "criteria": f'={CHANGED}<>""', "format": self.outdated}
+        sheet.write_formula(row, column, f'=IF({cell}="","{plain}","{GIVEN}")', self.dead_wrapped, plain)
+        rule = {"type": "formula", "criteria": f'={cell}<>""', "format": self.outdated}
         sheet.conditional_format(row + 1, column, row + self.count, column, rule)
 
     def _number(self, sheet: Worksheet, row: int, column: int, text: str | None, value: float, look: Format) -> None:
@@ -350,8 +373,8 @@ class Sheets:
             says = "a number, not a formula" if dead else f"while {kept}" if kept else ""
             for row, text in enumerate((result.column.name, result.column.unit, says)):
                 sheet.write_string(row, column, text, self.wrapped if row == 2 else self.head)
-            if dead:
-                self._given(sheet, 2, column, says)
+            if outdating := self._outdating(result.expr, self._outdated_by):
+                self._given(sheet, 2, column, says, outdating)
             shown = np.broadcast_to(result.column.shown, self.calculation.motion.shape)
             look = self._look(f"0.{'0' * result.column.digits}" if result.column.digits else "0", dead)
             template = None if result.expr is None else self._cell_formula(result.expr, "Calculation!")

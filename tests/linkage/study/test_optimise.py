@@ -284,6 +284,12 @@ def test_steps_are_kept_and_no_design_on_steps_beats_it(tmp_path):
     assert all(best.value <= each * (1.0 + 1e-7) for each in every)
 
 
+def test_a_design_whose_steps_all_miss_a_condition_is_none():
+    between = [at("OB") >= 0.302, at("OB") <= 0.308]
+    with pytest.raises(StudyError, match=r"no design that was found can be kept.*on its steps misses the conditions"):
+        optimise(Boom(), minimise=at("OB"), vary={"OB": (0.25, 0.35, 0.01)}, subject_to=between, starts=1)
+
+
 def test_rounding_says_what_it_costs_and_keeps_the_conditions():
     best = optimise(Boom(), minimise=most(pressure("lift")), vary=VARY, subject_to=[TRAVEL >= 0.6], starts=2)
     drawn = best.rounded(1 * mm)

@@ -277,7 +277,7 @@ def test_nor_does_it_count_as_a_loss_among_machines_with_tolerances(up, limited)
 
 def test_alternatives_are_each_in_its_own_unit_and_those_of_brute_force():
     """G's height at the start against its reach: either gives way, by the best design of 1000 that keeps the other."""
-    ask = dict(minimise=at("OB"), vary={"BOG": (-170 * deg, 140 * deg), "OB": (0.28, 0.32)})
+    ask = dict(minimise=at("OB"), vary={"BOG": (-170 * deg, 140 * deg), "OB": (0.28, 0.32)}, starts=1)
     limits = [at(y("G"), S=0.0) >= 0.70, at(x("G"), S=0.0) >= 1.30]
     with pytest.raises(InfeasibleError) as caught:
         optimise(Boom(), **ask, subject_to=limits)
@@ -293,6 +293,9 @@ def test_alternatives_are_each_in_its_own_unit_and_those_of_brute_force():
     for each in error.alternatives:
         motion = each.machine.at(S=0.0)
         assert min(motion.y("G") - 0.70, motion.x("G") - 1.30) < 0.0 <= max(motion.y("G") - 0.70, motion.x("G") - 1.30) + 1e-6
+    with pytest.raises(InfeasibleError) as caught:  # the seventh is not looked for
+        optimise(Boom(), **ask, subject_to=[limits[0], *(at("OB") >= 0.1 + k * mm for k in range(5)), limits[1]])
+    assert caught.value.relaxations[0].condition is limits[0] and not caught.value.alternatives
 
 
 def test_forces_and_lengths_give_way_in_their_units():

@@ -242,10 +242,9 @@ class Domain:
         if self.instants is not None:
             return self.timed(self.instants.shares(np.linspace(0.0, 1.0, number)), unreachable)
         if shape != "poses":
-            if len(self.running) != 1 and not self.moves_along:
-                ways = keywords(dict.fromkeys(self.running or self.plan.strokes, 11))
-                what = f"{title}: {len(self.running)} strokes run in this box"
-                raise DefinitionError(f"{what}; write sweep({ways}), or sweep over an Over.path.")
+            ways = keywords(dict.fromkeys(self.running or self.plan.strokes, 11))
+            what = f"{title}: {len(self.running)} strokes run in this box"
+            ensure(len(self.running) == 1 or self.moves_along, f"{what}; write sweep({ways}), or sweep over an Over.path.")
             held = {name: float(value[0]) for name, value in strokes.items()}
             run = Run({name: tuple(strokes[name].tolist()) for name in self.running}, held)
             moved, going = run.strokes_and_slopes(np.linspace(0.0, 1.0, number))

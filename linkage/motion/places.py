@@ -134,9 +134,8 @@ class Places:
         require_one_design(designs, f"{title} is of one design")
         listed, held = targets_given(targets, title, 'such as [Target(x("G"), 2.5), Target(y("G"), 0.5)]'), held_strokes(plan, hold, title)
         for each in listed:
-            if each.strokes:
-                names = ", ".join(f'hold={{"{name}": {value!r}}}' for name, value in each.strokes.items())
-                raise DefinitionError(f"{title}: {each!r}: strokes are what is looked for here; one that stands still is held, {names}.")
+            names = ", ".join(f'hold={{"{name}": {value!r}}}' for name, value in each.strokes.items())
+            ensure(not each.strokes, f"{title}: {each!r}: strokes are what is looked for here; one that stands still is held, {names}.")
         free = tuple(name for name in plan.strokes if name not in held)
         bound = tuple(traced_target(plan, each, title) for each in targets)
         found = cls(plan, {name: float(value) for name, value in designs.items()}, tuple(targets), bound, free, held, ranges)

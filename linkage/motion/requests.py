@@ -505,15 +505,8 @@ class Combined(Request):
         found = [each if isinstance(each, float) else identity_of(plan, each) for each in self.parts]
         return None if None in found else ("combined", self.function, *found)
 
-    @property
-    def measures(self) -> str:
-        return self._kind([each.measures for each in self.parts if not isinstance(each, float)])
-
     def measured(self, plan: Plan) -> str:
-        return self._kind([measured_in(plan, each) for each in self.parts if not isinstance(each, float)])
-
-    def _kind(self, known: list[str]) -> str:
-        """Return the kind of its value from those of its parts, numbers left out."""
+        known = [measured_in(plan, each) for each in self.parts if not isinstance(each, float)]
         scaled = self.function == "multiply" or (self.function == "divide" and isinstance(self.parts[1], float))
         same = self.function in LIKE_ITS_PARTS or (scaled and len(known) == 1)
         return known[0] if same and len(set(known)) == 1 else ""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias, overload
 import numpy as np
 
 from ..assembly import Assembly
-from ..errors import DefinitionError, ensure, is_yes, require
+from ..errors import ensure, is_yes, require
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike
 from ..reports import NOTHING
@@ -176,10 +176,10 @@ def draw(
     laid = (faint, forces, pole, clearance, is_yes("freedom", freedom))
     is_laid = ax is not None or velocities is not None or any(each is not None and each is not False for each in laid)
     is_laid = is_laid or time is not None or not (isinstance(pose, int) and pose == 0)
+    is_plain = at is None and not path and not is_laid
     if isinstance(machine, Synthesis):
-        if at is not None or path or is_laid:
-            title = machine.start.plan.title
-            raise DefinitionError(f"{title}: what a synthesis found is drawn beside its task; it takes answers= and count= alone.")
+        title = machine.start.plan.title
+        ensure(is_plain, f"{title}: what a synthesis found is drawn beside its task; it takes answers= and count= alone.")
         return draw_synthesis(machine, 3 if answers is None else answers, count)
     require(answers is None, "draw(answers", answers, "answers are those of a synthesis; leave it out")
     if isinstance(machine, Sequence):
@@ -189,17 +189,15 @@ def draw(
         ensure(not is_laid and bool(modes) != bool(designs), f"draw([...]): {given} are expected.")
         return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
     if "networkx" in sys.modules and isinstance(machine, sys.modules["networkx"].MultiGraph):
-        ensure(at is None and not path and not is_laid, "draw(machine.graph): a graph has no poses; it is drawn by itself.")
+        ensure(is_plain, "draw(machine.graph): a graph has no poses; it is drawn by itself.")
         return draw_chain(machine)
     if isinstance(machine, Mechanism) and not is_laid and any(map(np.ndim, machine.dimensions.values())):
         return draw_designs([machine], at, path, count)
     if isinstance(machine, Burmester):
-        ensure(at is None and not path and not is_laid, "draw(burmester(...)): its poses are those that were given; it is drawn by itself.")
+        ensure(is_plain, "draw(burmester(...)): its poses are those that were given; it is drawn by itself.")
         return draw_burmester(machine)
     if isinstance(machine, Optimum):
-        if at is not None or path or is_laid:
-            title = machine.problem.plan.title
-            raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
+        ensure(is_plain, f"{machine.problem.plan.title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)
     overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole, clearance, freedom)
     return draw_machine(machine, at, path, count, overlays, ax, pose, time, faint)
@@ -249,13 +247,12 @@ def plot(
     DefinitionError
         A batch, a grid, an unknown name.
     """
+    is_alone = not columns and limits is None and not at
     if isinstance(motion, WorkingField):
-        if columns or limits is not None or at:
-            raise DefinitionError(f"{motion.machine.plan.title}: a working field is drawn as it is; write plot(field).")
+        ensure(is_alone, f"{motion.machine.plan.title}: a working field is drawn as it is; write plot(field).")
         return plot_field(motion)
     if isinstance(motion, Optimum):
-        if columns or limits is not None or at:
-            raise DefinitionError(f"{motion.problem.plan.title}: a search's result has its own curves and limits; write plot(optimum).")
+        ensure(is_alone, f"{motion.problem.plan.title}: a search's result has its own curves and limits; write plot(optimum).")
         return plot_optimum(motion)
     if isinstance(motion, Mechanism):
         return plot_machine(motion, columns, limits, at, count)

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from ..errors import DefinitionError, is_listed, known_name, require_type
+from ..errors import DefinitionError, ensure, is_listed, known_name, require_type
 from ..language import said, translated
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
@@ -84,9 +84,7 @@ def plot_curves(first: Motion, curves: Sequence[Curve], limits: Mapping[str, Seq
         known_name("Column", name, [*dict.fromkeys(column.name for _, column, _ in curves)], where="limits")
     abscissas = [(StrokeAxis.of(motion).name, *(motion.strokes if motion.time is None else ())) for motion, _, _ in curves]
     shown = [each for each, along in zip(curves, abscissas, strict=True) if each[1].name not in along]
-    if not shown:
-        along = StrokeAxis.of(first).name
-        raise DefinitionError(f"{first.plan.title}: there is no column to draw over {along}; name a result, not a stroke.")
+    ensure(shown, f"{first.plan.title}: there is no column to draw over {StrokeAxis.of(first).name}; name a result, not a stroke.")
     figure, cells = panel_grid(len(shown), ", ".join(filter(None, (first.plan.heading, case))), held)
     for ax, (motion, result, where) in zip(cells, shown, strict=True):
         column, bound = as_curve(result, given.get(result.name))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import product
 from typing import TypeAlias
 
 import numpy as np
@@ -18,6 +17,7 @@ from ..motion import Motion, Planes, Request, clearance, gap, nearest_gap, neare
 from ..motion.grid import recalled
 from ..motion.limits import NO_LENGTH
 from ..motion.planes import depth_words
+from ..motion.strokes import strokes_over_axes
 from ..plan import Plan
 from ..program import FloatArray
 from ..units import show
@@ -96,8 +96,7 @@ def assumed_pairs(motion: Motion) -> tuple[Pairs, str]:
     plan = motion.plan
     if plan.of_kind(Planes):
         return None, ""
-    places = np.array(list(product(*(np.linspace(each.start, each.end, 3) for each in plan.strokes.values()))))
-    strokes = {name: places[:, column] for column, name in enumerate(plan.strokes)}
+    strokes = strokes_over_axes({name: np.linspace(each.start, each.end, 3) for name, each in plan.strokes.items()})
     corners = Motion(plan, motion.designs, strokes, "nan")
     apart, crossing = recalled(corners, "pairs without planes", lambda: pairs_without_planes(corners))
     one, other = own_bodies(plan)

@@ -13,7 +13,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..errors import DefinitionError, LinkageError, cited, is_listed, known_name, require, require_type, unknown, unwarned
+from ..errors import LinkageError, cited, ensure, is_listed, known_name, require, require_type, unknown, unwarned
 from ..language import heading_of, language, translated
 from ..loads import PLAIN_CASE, Case, ForceElement
 from ..mechanism import Mechanism, verdicts_of
@@ -217,9 +217,8 @@ def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[fl
     require(not is_length or ends[0] > 0.0, what, ends, "a length is above zero; give a least value that is")
     low, high = sorted(sign * float(end) for end in ends)
     value = float(machine.dimensions[name])
-    if not low <= value <= high:
-        said = f"{what}={cited(ends)} leaves out the design's own value, {sign * value:.6g}"
-        raise DefinitionError(f"{said}; give a range around it in SI, or set the dimension first.")
+    said = f"{what}={cited(ends)} leaves out the design's own value, {sign * value:.6g}"
+    ensure(low <= value <= high, f"{said}; give a range around it in SI, or set the dimension first.")
     return low, high
 
 

@@ -48,16 +48,14 @@ def draw_machine(
     ensure(ax is None or not overlays, "draw(ax=...): forces, velocities, poles and gaps have a figure of their own; leave out ax=.")
     if isinstance(machine, Motion):
         is_plain = at is None and is_listed(path) and not path and is_whole(count) and count == 101
-        if not is_plain:
-            title = machine.plan.title
-            what = "a motion is drawn at one of its poses, pose=, over a path in time at an instant, time="
-            raise DefinitionError(f"{title}: {what}; at=, path= and count= go with a machine.")
+        title = machine.plan.title
+        what = "a motion is drawn at one of its poses, pose=, over a path in time at an instant, time="
+        ensure(is_plain, f"{title}: {what}; at=, path= and count= go with a machine.")
         machine, pose = (machine, pose) if time is None else with_instant(machine, time, pose)
         return mechanism(ax, machine, pose, faint=faint) if ax is not None else draw_pose(machine, pose, overlays, faint)
     require_mechanism(machine)
-    if time is not None:
-        what = f"{machine.plan.title}: time={cited(time)} is an instant of a motion"
-        raise DefinitionError(f'{what}; write draw(machine.sweep(101, over="..."), time={cited(time)}).')
+    what = f"{machine.plan.title}: time={cited(time)} is an instant of a motion"
+    ensure(time is None, f'{what}; write draw(machine.sweep(101, over="..."), time={cited(time)}).')
     ensure(ax is None, f"{machine.plan.title}: ax= takes a motion, which has poses; write draw(machine.at(...), ax=ax).")
     return draw_strokes(machine, at, path, count, overlays)
 

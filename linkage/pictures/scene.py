@@ -183,9 +183,8 @@ class Scene:
     def __post_init__(self) -> None:
         require_motion(self.motion)
         plan = self.motion.plan
-        if self.motion._design_shape:
-            said = f"{plan.title}: this motion holds {np.prod(self.motion._design_shape)} designs and a picture shows one"
-            raise DefinitionError(f"{said}; draw them one at a time, each dimension a single number.")
+        said = f"{plan.title}: this motion holds {np.prod(self.motion._design_shape)} designs and a picture shows one"
+        ensure(not self.motion._design_shape, f"{said}; draw them one at a time, each dimension a single number.")
         flat = {name: self.motion[name].reshape(2, -1) for name in plan.points}
         object.__setattr__(self, "places", flat)
 

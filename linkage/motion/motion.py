@@ -763,7 +763,8 @@ class Motion(Shown):
         if Trait.OF_FORCES in what.traits:
             self._refuse_part(f"the gradient of {of}")
         names, signs = tuple(name for name, _ in dimensions), np.tile([float(sign) for _, sign in dimensions], what.rows)
-        kernel, touched = plan.made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))
+        made = plan.made_beside if Trait.OF_LAWS in what.traits else plan.made
+        kernel, touched = made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))
         switches = grid.full(kernel(grid.flat).values) if touched else ()
         found = self._looked_at(slope(what, names), f"The gradient of {what.sentence}", what, zip(touched, switches, strict=True))
         rows = found.reshape(len(signs), *self.shape) * signs.reshape(-1, *(1,) * len(self.shape))

@@ -836,7 +836,7 @@ def slope(what: Request, by: tuple[str, ...]) -> NodeRequest:
 
     return NodeRequest(
         text=f"the gradient of {what.sentence}", key=("slope", what.key, by), rows=what.rows * len(by), nodes_of=nodes, names_of=what.names,
-        order=1 + what.order, notes_of=what.notes, gaps_of=what.gaps, traits=Trait.FOLLOWS_ANGLES,
+        order=1 + what.order, notes_of=what.notes, gaps_of=what.gaps, traits=Trait.FOLLOWS_ANGLES | (what.traits & Trait.OF_LAWS),
         error_of=lambda left: left.norm.relative(SMALL),
     )  # fmt: skip
 

@@ -24,18 +24,7 @@ from ..quantities import Distance
 from ..steps import Point
 from ..units import deg
 from .grid import Grid, MotionLike, recalled
-from .limits import (
-    Extreme,
-    Interval,
-    Limits,
-    Open,
-    StrokeLimits,
-    assembly_error,
-    stroke_number,
-    stroke_text,
-    stroke_unit,
-    where_words,
-)
+from .limits import Extreme, Interval, Limits, Open, StrokeLimits, assembly_error, stroke_number, stroke_text, stroke_unit, where_words
 from .requests import transmission
 from .strokes import TURN, check_any
 

@@ -44,9 +44,9 @@ from linkage.motion import nearest_places, whole_body
 from linkage.motion.gaps import shape_named
 from linkage.pictures import style
 from linkage.pictures.arrows import significant
-from linkage.pictures.force_arrows import ForceQuestion, ForcesAt, force_layer, forces_at_pose
+from linkage.pictures.force_arrows import ForceQuestion, ForcesAt, force_layer, forces_at_pose, lever_arms, moment_about
 from linkage.pictures.gap_marks import assumed_pairs, gap_mark
-from linkage.pictures.overlays import asked_poles, lever_arms, moment_about, pole_marks, pole_rates
+from linkage.pictures.overlays import asked_poles, pole_marks, pole_rates
 from linkage.pictures.page_forces import PageSituation, force_arrows
 from mechanisms.at_work.excavator import Excavator
 from mechanisms.at_work.one_pump import RegenerativePress

@@ -41,15 +41,20 @@ def test_doors_are_functions_whatever_is_imported(lines):
 
 
 def test_no_library_is_loaded_before_it_is_asked_for():
-    """None behind the doors by a star, no graphs by the mobility, pydantic by no room, and nothing that draws by a live page."""
+    """None behind the doors by a star, no graphs by the mobility, pydantic by no room, and nothing that draws by a live page.
+
+    A crane brings its own files alone.
+    """
     told, four_bar = "print(*sys.modules)", "from mechanisms.classics.four_bar import FourBar"
     rooms, live = "import linkage.cli, linkage.files, hydraulics", "len(linkage.pictures.page_html(FourBar()))"
-    asked = four_bar, "FourBar().mobility", told, "FourBar().graph", told, rooms, told, PICTURES, live, told
+    crane = "from mechanisms.crane import Crane"
+    asked = four_bar, "FourBar().mobility", told, "FourBar().graph", told, rooms, told, crane, told, PICTURES, live, told
     text = printed(STAR, "import sys", told, *asked)
-    star, moved, drawn, last, paged = (each.split() for each in text.splitlines())
+    star, moved, drawn, last, craned, paged = (each.split() for each in text.splitlines())
     assert "linkage.mechanism" in star
     behind = *HEAVY, *OPTIONAL, "linkage.pictures", "linkage.formulas", "linkage.notebook"
     assert not [name for name in star if name.startswith(behind)]
+    assert not {"mechanisms.crane.drives", "mechanisms.crane.chain_crane"} & {*craned}
     assert "networkx" not in moved and "networkx" in drawn and "pydantic" not in last
     assert "linkage.pictures.page_data" in paged and not [name for name in paged if name.startswith(("matplotlib", "sympy"))]
 

@@ -1,5 +1,6 @@
 """What every machine says of a motion: assembly, dead points, transmission, its members; of a batch how many designs fail."""
 
+from collections import Counter
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,8 +11,10 @@ from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mec
 from linkage.loads import FRICTIONLESS, PLAIN_CASE, ForceElement
 from linkage.motion import HasVerdicts, Tabled
 from linkage.motion.judge import Situation, situation_found
+from linkage.motion.live import live_text
 from linkage.motion.motion_verdicts import geometry_verdicts
 from linkage.reports import results
+from linkage.statics.law_requests import LawRequest
 from linkage.units import bar, litre, mm
 from mechanisms.at_work.excavator import HookExcavator
 
@@ -105,7 +108,7 @@ def test_the_rule_of_several_members_bears_their_names():
         pump = LiftCircuit(["lift", aux], pressure=180 * bar)
 
     found = by_rule(Two().verdicts(Two().sweep(5)))
-    assert {"standard size lift", "standard size aux", "length"} <= set(found)
+    assert {"standard size lift", "standard size aux", "length lift"} <= set(found)
 
 
 @pytest.mark.slow
@@ -247,3 +250,21 @@ def test_a_fixed_point_without_a_place_is_told():
     assert assembly.sentence.startswith("E = Ground(a, sqrt(1.0 - a * a)) has no place, as its coordinates have no value. Change")
     assert all(Pointed().verdicts())
     assert np.isnan(Pointed(a=1.5).evaluate(["E"], S=[0.6], unreachable="nan")[0]).any()  # a search reads that
+
+
+def test_a_law_is_traced_once_for_verdicts_a_page_and_gradients(monkeypatch):
+    """Not once more for its values, its guards, its slopes and the page's program."""
+    traced, own = [], LawRequest.traced_law
+    monkeypatch.setattr(LawRequest, "traced_law", lambda self, motion: (traced.append(self), own(self, motion))[1])
+
+    class Fresh(Lift):  # of which nothing has been traced
+        """The same."""
+
+    machine = Fresh()
+    machine.verdicts()
+    asked = dict.fromkeys(traced)
+    live_text(Fresh.plan, {str(each): each for each in asked})
+    for each in asked:
+        machine.at(S=0.1).gradient(each, ["OB", "load.mass"])
+    counts = Counter(map(str, traced))
+    assert len(counts) > 5 and set(counts.values()) == {1}, counts

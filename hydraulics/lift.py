@@ -607,7 +607,7 @@ class LiftingCylinder:
             if alone.value <= nothing:
                 text = said("nothing holds it back {against}; {where} the load presses on neither side and nothing drives it.", **by)
             return Verdict("lowering", True, text, answer=replace(push, ok=True))
-        where, enough = self.stuck(replace(self.back(way, resistance), acting=replace(judge.situation(push), direction=None))), False
+        where, enough = self.stuck(self.back(way, resistance), judge.situation(push)), False
         is_pushed = bool(pushed_back(self.ram, self.circuit, judge.plan.members))
         if is_pushed and not push.unbounded:
             (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
@@ -636,14 +636,16 @@ class LiftingCylinder:
         held = [each.value for each in self.judge.answers(self.standing)] if self.ram.side == "both" else [0.0, 0.0]
         return self.ram.ways_back(-held[-1], held[0])
 
-    def stuck(self, back: LawRequest) -> str:
-        """Return where it does not go back, in words."""
-        way = self.judge.along
-        if way is None:
-            return said("anywhere") if self.judge.answer(least(back)).value > 0.0 else said("in places")
-        stuck, whole = self.judge.parts_below(-back), reached_spans(way)
-        everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
-        return said("anywhere") if everywhere or not stuck else with_and(stuck)
+    def stuck(self, back: LawRequest, worst: Acting) -> str:
+        """Return where it does not go back, in words: along one way in the worst situation, anywhere if in every one."""
+        way, stuck = self.judge.along, list[Span]()
+        if way is not None:
+            whole, stuck = reached_spans(way), [*self.judge.parts_below(-replace(back, acting=replace(worst, direction=None)))]
+            if [*map(str, stuck)] == [*map(str, whole)]:
+                stuck = []
+        if stuck:
+            return with_and(stuck)
+        return said("anywhere") if self.judge.answer(least(back)).value > 0.0 else said("in places")
 
 
 def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:

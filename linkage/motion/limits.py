@@ -72,7 +72,8 @@ class StrokeLimits:
             at = {"stroke": self.stroke, "place": stroke_text(value, self.unit)}
             lines.append("  " + said("dead point of {name} at {stroke} = {place}: its length stands still", name=name, **at))
         for least in self.transmission:
-            given = {"joint": least.joint, "angle": angle_text(least.angle, 4), "place": stroke_text(least.stroke, self.unit)}
+            place = stroke_text(round(least.stroke, 7) + 0.0, self.unit)
+            given = {"joint": least.joint, "angle": angle_text(least.angle, 4), "place": place}
             lines.append("  " + said("least transmission angle at {joint}: {angle} at {place}", **given))
         return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
 

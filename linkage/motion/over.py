@@ -22,6 +22,7 @@ from ..units import Amount, amount_or_float, amounts_in, require_measure, show
 from .grid import MotionLike
 from .instants import Instants
 from .limits import span_text, stroke_unit, way_text
+from .requests import is_of_force
 from .strokes import check_magnitude, strokes_over_axes
 
 OPTIONS = ("only", "cases", "lost", "time")
@@ -402,7 +403,12 @@ class Over(Member):
             text = said("{count} poses, {spans}", count=motion.reached.size, spans=text)
         if self.time is not None:
             text = said("{spans} in {time}", spans=text, time=show(self.time[-1] - self.time[0], "s", 4))
-        return said("{spans}, where {conditions}", spans=text, conditions=", ".join(map(str, self.only))) if self.only else text
+        if not self.only:
+            return text
+        conditions = ", ".join(each.words() for each in self.only)
+        if plan.of_kind(LoadCase) and any(is_of_force(each.margin) for each in self.only):
+            conditions = said("{conditions} under the machine's own loads", conditions=conditions)
+        return said("{spans}, where {conditions}", spans=text, conditions=conditions)
 
     def __str__(self) -> str:
         word = "Over" if self.shape == "box" else f"Over.{self.shape}"

@@ -8,6 +8,7 @@ from __future__ import annotations
 import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterator, Mapping
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NoReturn, TypeAlias, cast
 
@@ -15,7 +16,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, ensure, is_number, is_whole
 from ..frozen import immutable, unmasked
-from ..units import UNITS, amount_or_float
+from ..units import UNITS, amount_or_float, display_unit, show
 from ..vectors import FloatArray, Operators, Scalar, Vec
 from .member import Member, Reference, Turning, Where, is_reference
 
@@ -174,6 +175,11 @@ class PoseCondition:
     def __str__(self) -> str:
         left, right = (each.name or str(each) if isinstance(each, Quantity) else str(each) for each in (self.left, self.right))
         return f"{left} {self.symbol} {right}"
+
+    def words(self) -> str:
+        """Return the condition with its number in a unit that a reader knows, where its other side tells the kind."""
+        unit = display_unit(getattr(self.left, "measures", ""), "mm")
+        return str(replace(self, right=show(self.right, unit, 6))) if unit and is_number(self.right) else str(self)
 
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: it has a value at every pose, so that it cannot be compared once for all; {CHOICE}. {COMPARED}")

@@ -303,6 +303,8 @@ def test_only_leaves_out_and_its_border_is_found():
     assert 0.0 < inside[0].outside < 1.0
     with pytest.raises(DefinitionError, match="no condition on poses"):
         Over(only=[True])
+    words = Over(only=[y("D") >= 0.25, angle("A", "B") <= 90 * deg]).words(machine.at(S=0.0, T=0.0))
+    assert "where y(D) >= 250 mm, angle(A, B) <= 90 deg" in words
     nowhere = machine.answers([most(y("D")) <= 1.0], over=Over(only=[y("D") >= 50.0]))[0]
     assert nowhere.ok is None and nowhere.status == "nothing left"
     (before,) = Rocker(L0=0.6).answers([most(y("B")) <= 1.4], over=Over(S=(0.0, 0.38), only=[ref("S") <= 0.2]))

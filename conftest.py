@@ -87,5 +87,5 @@ def pytest_collection(session):
     finally:
         sys.dont_write_bytecode = unwritten
         gc.freeze()
-        gc.set_threshold(1_000_000, 50, 50)
+        gc.set_threshold(200_000, 20, 20)
         gc.enable()

@@ -51,7 +51,7 @@ def make_all(folder: Path) -> None:
     api.make(folder / "api")
     pages = written_pages()
     searches.make(pages, folder)
-    seldom = {"initializer": gc.set_threshold, "initargs": (1_000_000,)}  # the many objects of traced programs are looked through in vain
+    seldom = {"initializer": gc.set_threshold, "initargs": (100_000,)}  # the many objects of traced programs are looked through in vain
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn"), **seldom) as pool:
         run = pool.submit(notebook.make, HERE / "notebook.ipynb", folder / "notebook.md")
         tiles = {name: pool.submit(machines.make, name, folder) for name in machines.registered()}

@@ -903,10 +903,12 @@ class Judge:
         units = {name: stroke_unit(self.plan, name) for name in strokes}
         count = sum(each.count for each in {id(one.seen): one.seen for one in candidates}.values() if each is not None)
         outside = float(np.asarray(worst.seen.outside)[worst.design]) if worst.seen is not None else 0.0
+        is_one = isinstance(question, Constraint | Measure) or len(worst.rows) != 1
+        kind = measures_of(self.plan, question if is_one else worst.rows[0].leaf)  # of several conditions the one that counts
         return Answer(
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
             place.over.name, lost, float(worst.unlimited), outside, place.width if worst.seen is not None else {}, count, units,
-            measures_of(self.plan, question), float(worst.time) if known else np.nan, named,
+            kind, float(worst.time) if known else np.nan, named,
             int(worst.leg) if known else -1, turned_by(place, question),
         )  # fmt: skip
 

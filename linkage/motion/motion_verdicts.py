@@ -540,8 +540,9 @@ def pose_sentence(motion: Motion) -> str:
         for rule, (member, own, condition) in rules_of(at_pose).items():
             heading = heading_of(rule)
             try:
-                measures = measures_of(plan, conditions_of([condition], None)[0])
-                found[heading] = answer = replace(at_pose.answer(condition), measures=measures)
+                answer = at_pose.answer(condition)
+                measures = answer.measures or measures_of(plan, conditions_of([condition], None)[0])
+                found[heading] = answer = replace(answer, measures=measures)
                 words = speakers(plan, HasVerdicts)[member].page_words(at_pose).get(own) if answer.ok is False else None
                 if words is not None and words.is_need:
                     found[heading] = replace(answer, value=rounded_up(float(answer.value), display_unit(measures, "mm")))

@@ -274,6 +274,8 @@ class Sheets:
                 found[each.symbol] = self.misfit if each.meaning.endswith(ITERATED) else CHANGED
             elif not each.checks and (cell := self._outdating(each.expr, found)):
                 found[each.symbol] = cell
+            else:  # formulas read a given number where its equation follows
+                found.pop(each.symbol, None)
         return found
 
     def _outdating(self, expr: sympy.Expr | None, known: Mapping[sympy.Symbol, str]) -> str:

@@ -13,6 +13,7 @@ import pytest
 import sympy
 from numpy.testing import assert_allclose
 
+from hydraulics import Cylinder, OilLine, Pump, Tank
 from linkage import (
     LEFT,
     AssemblyError,
@@ -23,8 +24,10 @@ from linkage import (
     Dyad,
     FileError,
     Ground,
+    Guide,
     LoadCase,
     Mechanism,
+    OnGuide,
     Over,
     Part,
     PinFriction,
@@ -42,7 +45,7 @@ from linkage.exports.workbook import GIVEN, cell_names, formula, from_si, to_si
 from linkage.pictures.layout import half_of, props
 from linkage.pictures.scene import Scene
 from linkage.reports import results, run_of, stroke_middles
-from linkage.units import UNITS, deg, kgf_cm2, mm
+from linkage.units import UNITS, bar, deg, kgf_cm2, mm
 from mechanisms.at_work.excavator import Excavator
 from mechanisms.at_work.telehandler import Telehandler
 from mechanisms.classics.stephenson_two import StephensonTwo
@@ -308,6 +311,24 @@ def test_numbers_that_follow_no_input_say_so_where_they_stand_once_one_changes(i
     assert not any(cell.value == GIVEN for sheet, row in GIVEN_IN.items() for cell in plain[sheet][row])
     struck = {sheet: {str(each.sqref)[0] for each in written(iterated)[sheet].conditional_formatting} for sheet in GIVEN_IN}
     assert all(letter[0] in struck[sheet] for sheet, letters in given.items() for letter in letters)
+
+
+def test_a_number_that_an_equation_gives_later_leaves_nothing_behind(tmp_path):
+    """Of a cylinder with a tank on its rod side the line tells a thrust of 0; results follow the equation of the whole."""
+
+    class Upright(Mechanism):
+        """A ram on a pump and a tank."""
+
+        S, O = Stroke(0.0, 0.5), Ground(0.0, 0.0)
+        rail = Guide(O, angle=90 * deg)
+        P = OnGuide(rail, at=1.0 + S)
+        load = Weight(P, mass=400)
+        ram = Cylinder(O, P, bore=80 * mm, rod=45 * mm)
+        line, back = OilLine(ram.piston_side, Pump(180 * bar)), OilLine(ram.rod_side, Tank())
+
+    book = written(export(Upright(), tmp_path / "upright.xlsx", count=5))
+    heads = {book["Results"].cell(1, column).value: str(book["Results"].cell(3, column).value) for column in range(1, 12)}
+    assert "thrust" in heads and not any(GIVEN in text for text in heads.values())
 
 
 @pytest.mark.slow

@@ -162,9 +162,13 @@ def errors_of(what: str) -> Iterator[None]:
         raise DefinitionError(f"{what} raises {type(error).__name__}: {error} ({where}); mend it there.{hint}") from error
 
 
+ASKED = "__getattr__", "late_name"
+"""The functions that look up a name for another place, which is the one that misspelt it."""
+
+
 def culprit(error: BaseException) -> tuple[str, str]:
     """Return where an error comes from, and " Did you mean ...?" with the nearest name where one is misspelt there, else ""."""
-    frame, line = [each for each in walk_tb(error.__traceback__) if each[0].f_code.co_name != "__getattr__"][-1]
+    frame, line = [each for each in walk_tb(error.__traceback__) if each[0].f_code.co_name not in ASKED][-1]
     names: list[str] = []
     if isinstance(error, NameError):
         names = [*frame.f_locals, *frame.f_globals, *frame.f_builtins]

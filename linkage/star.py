@@ -33,7 +33,7 @@ def late_names(
     rooms = {name: room for room, name in re.findall(r"^from ([\w.]+) import (\w+)", text, re.MULTILINE)}
     door["__all__"] = [*rooms]
 
-    def named(name: str) -> object:
+    def late_name(name: str) -> object:
         """Return a name of the door, from then on there; AttributeError for any other."""
         if name not in rooms:
             raise AttributeError(f"module {title!r} has no attribute {name!r}")
@@ -41,8 +41,8 @@ def late_names(
         door[name] = getattr(import_module(room, title), name) if load is None else load(room, name)
         return door[name]
 
-    def names() -> list[str]:
+    def every_name() -> list[str]:
         """Return the names of the door, those not loaded yet included."""
         return sorted({*door, *rooms})
 
-    return named, names
+    return late_name, every_name

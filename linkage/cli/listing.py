@@ -110,12 +110,15 @@ def class_node(module: str, name: str) -> ast.ClassDef | None:
 
 @lru_cache(maxsize=64)
 def syntax(module: str) -> ast.Module | None:
-    """Return a module as its source writes it; None where there is none, or none that can be read."""
+    """Return a module as its source writes it, with the names of its stub; None where there is none, or none that can be read."""
     path = source_file(module)
     try:
-        return None if path is None else ast.parse(path.read_bytes())
+        found = None if path is None else ast.parse(path.read_bytes())
+        if found is not None and path is not None and (stub := path.with_suffix(".pyi")).is_file():
+            found.body += ast.parse(stub.read_bytes()).body
     except (OSError, SyntaxError, ValueError):
         return None
+    return found
 
 
 def source_file(module: str) -> Path | None:

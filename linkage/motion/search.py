@@ -237,7 +237,8 @@ def require_function(motion: Any, f: Any) -> None:
     """Raise DefinitionError for anything but a motion and a function of one."""
     require_motion(motion)
     check_any(motion.strokes, motion.plan)
-    ensure(can_be_called(f), f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
+    if not can_be_called(f):  # a function may be long to show
+        raise DefinitionError(f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
 
 
 def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> FloatArray:

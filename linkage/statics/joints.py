@@ -454,7 +454,8 @@ class Structure:
 
     def turned_by_gears(self) -> tuple[str, ...]:
         """Return the cranks whose couples gears give: geared to a body, or to each other on a stroke that is taken over."""
-        coupled = [each for each in self.contacts if "c" in each.holds and frozenset(self.followed(each.joint)[0]["c"]) in self.geared]
+        turned = [each for each in self.contacts if "c" in each.joint.holds]
+        coupled = [each for each in turned if frozenset(self.followed(each.joint)[0]["c"]) in self.geared]
         return tuple(dict.fromkeys(each.owner for each in (*coupled, *(gear.crank for gear in self.gears))))
 
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:

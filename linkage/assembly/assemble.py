@@ -265,12 +265,13 @@ def next_group(parts: Parts) -> Group:
     bodies: list[set[str]] = []
     for name, link in parts.links.items():
         points = {*link.point_names}
-        body = next((each for each in bodies if len(each & points) > 1), set[str]())  # links that share two points are one body
+        body = next((each for each in bodies if len(each & points) > 1), None)  # links that share two points are one body
+        if body is None:
+            bodies.append(body := set[str]())
         if parts.loose(link):
             with about(name):
                 rows += link_equations(parts, name, body & points)
         body |= points
-        bodies += [] if body in bodies else [body]
     for slide in parts.slides.values():
         guide = parts.guides[name_of(slide.guide)]
         held = (name_of(slide.point), *guide.points)

@@ -73,7 +73,8 @@ class Sheets:
         self.results = live_results(calculation)
         self.count = calculation.motion.shape[0]
         self.top = int(bool(calculation.headings))
-        self.above, self.misfit = ROWS_ABOVE + self.top, CHANGED
+        self.above = ROWS_ABOVE + self.top
+        self.misfit = CHANGED  # where pins are found by iteration, the cell that tells that they do not fit
         ink = "#1F2933"
         head = {"bold": True, "bg_color": "#EEF1F4", "font_color": ink, "border": 1, "border_color": "#C9D1D9", "valign": "top"}
         self.head = book.add_format(head)

@@ -149,6 +149,8 @@ class Candidate:
     seen: Coverage | None = None
     """What was seen over its `Over`; None where it is only about poses that the question itself says."""
     design: tuple[int, ...] = ()
+    constraint: object = None
+    """The constraint, or the bare measure, that it answers; None of a row by itself."""
 
     @cached_property
     def situation(self) -> Situation:
@@ -242,9 +244,10 @@ class Domain:
         if self.instants is not None:
             return self.timed(self.instants.shares(np.linspace(0.0, 1.0, number)), unreachable)
         if shape != "poses":
-            ways = keywords(dict.fromkeys(self.running or self.plan.strokes, 11))
-            what = f"{title}: {len(self.running)} strokes run in this box"
-            ensure(len(self.running) == 1 or self.moves_along, f"{what}; write sweep({ways}), or sweep over an Over.path.")
+            if len(self.running) != 1 and not self.moves_along:
+                ways = keywords(dict.fromkeys(self.running or self.plan.strokes, 11))
+                what = f"{title}: {len(self.running)} strokes run in this box"
+                raise DefinitionError(f"{what}; write sweep({ways}), or sweep over an Over.path.")
             held = {name: float(value[0]) for name, value in strokes.items()}
             run = Run({name: tuple(strokes[name].tolist()) for name in self.running}, held)
             moved, going = run.strokes_and_slopes(np.linspace(0.0, 1.0, number))
@@ -840,7 +843,7 @@ class Judge:
             undefined = np.isnan(margin) and not any(np.isnan(each.value) for each in chosen)
             unbounded = np.asarray(np.any([each.unbounded for each in chosen]))
             rows = tuple(each.rows[0] for each in chosen)
-            yield place, Candidate(rows, value, where, unbounded, lawless, unlimited, time, leg, margin, undefined, seen, design)
+            yield place, Candidate(rows, value, where, unbounded, lawless, unlimited, time, leg, margin, undefined, seen, design, question)
 
     def lost_of(self, place: Domain, candidate: Candidate) -> LostPlaces:
         """Return the lost places of a candidate of one design."""
@@ -862,7 +865,8 @@ class Judge:
         count, found = len(self.places) if any(not is_at_poses(one) for one in constraints) else 1, list[Answer]()
         for design in np.ndindex(self.motion._design_shape):
             candidates = [each for number in range(count) for one in constraints for each in self.candidates(one, number, design)]
-            ensure(candidates, f"{self.plan.title}: {question}: there is nothing to ask it of.")
+            if not candidates:
+                raise DefinitionError(f"{self.plan.title}: {question}: there is nothing to ask it of.")
             found.append(self.answered(question, candidates))
         return of_batch(found, self.motion._design_shape)
 
@@ -903,12 +907,10 @@ class Judge:
         units = {name: stroke_unit(self.plan, name) for name in strokes}
         count = sum(each.count for each in {id(one.seen): one.seen for one in candidates}.values() if each is not None)
         outside = float(np.asarray(worst.seen.outside)[worst.design]) if worst.seen is not None else 0.0
-        is_one = isinstance(question, Constraint | Measure) or len(worst.rows) != 1
-        kind = measures_of(self.plan, question if is_one else worst.rows[0].leaf)  # of several conditions the one that counts
         return Answer(
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
             place.over.name, lost, float(worst.unlimited), outside, place.width if worst.seen is not None else {}, count, units,
-            kind, float(worst.time) if known else np.nan, named,
+            measures_of(self.plan, worst.constraint), float(worst.time) if known else np.nan, named,
             int(worst.leg) if known else -1, turned_by(place, question),
         )  # fmt: skip
 

@@ -21,9 +21,9 @@ from ..units import deg, display_unit, rounded_up, show
 from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
-from .judge import Domain, Judge, Question, measures_of
+from .judge import Domain, Judge, Question
 from .limits import BoxLimits, Limits, LoopMargin, StrokeLimits, angle_text, place_text, places_text, span_text, stroke_unit, timed_texts
-from .measures import Condition, Measure, conditions_of, least, reachable
+from .measures import Condition, Measure, least, reachable
 from .motion import Motion, require_motion
 from .over import Over
 from .requests import transmission
@@ -540,12 +540,10 @@ def pose_sentence(motion: Motion) -> str:
         for rule, (member, own, condition) in rules_of(at_pose).items():
             heading = heading_of(rule)
             try:
-                answer = at_pose.answer(condition)
-                measures = answer.measures or measures_of(plan, conditions_of([condition], None)[0])
-                found[heading] = answer = replace(answer, measures=measures)
+                found[heading] = answer = at_pose.answer(condition)
                 words = speakers(plan, HasVerdicts)[member].page_words(at_pose).get(own) if answer.ok is False else None
                 if words is not None and words.is_need:
-                    found[heading] = replace(answer, value=rounded_up(float(answer.value), display_unit(measures, "mm")))
+                    found[heading] = replace(answer, value=rounded_up(float(answer.value), display_unit(answer.measures, "mm")))
             except LinkageError:
                 unknown.append(heading)
     if not found and not unknown:

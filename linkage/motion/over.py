@@ -156,8 +156,9 @@ class Over(Member):
         instants = instants_given(time, values)
         listed = only if is_listed(only) else (only,)
         for condition in listed:
-            what = f"Over(only=...): {cited(condition)} is no condition on poses"
-            ensure(isinstance(condition, PoseCondition), f'{what}; write comparisons, only=[x("T") <= 4].')
+            if not isinstance(condition, PoseCondition):
+                what = f"Over(only=...): {cited(condition)} is no condition on poses"
+                raise DefinitionError(f'{what}; write comparisons, only=[x("T") <= 4].')
         if isinstance(cases, (str, LoadCase)):
             raise DefinitionError(f"Over(cases={cited(cases)}): a list of load cases is expected, cases=({cited(cases)},).")
         named = is_listed(cases) and all(isinstance(each, (str, LoadCase)) for each in cases)

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, ensure, is_listed, require_type
+from ..errors import DefinitionError, cited, is_listed, require_type
 from ..frozen import FrozenDict, refuses_changes
 from ..language import heading_of, noted
 from ..loads import ForceElement, LoadCase
@@ -94,8 +94,9 @@ class Column:
             The column.
         """
         values = motion[request]
-        what = f"{motion.plan.title}: {request} has two parts at every pose"
-        ensure(values.shape == motion.shape, f'{what}, and a column one number; ask for y("G"), ratio(x("G")), or np.hypot of the two.')
+        if values.shape != motion.shape:
+            what = f"{motion.plan.title}: {request} has two parts at every pose"
+            raise DefinitionError(f'{what}, and a column one number; ask for y("G"), ratio(x("G")), or np.hypot of the two.')
         kind = motion.plan.members.get(request) if isinstance(request, str) else request
         title = name or (kind.name if isinstance(kind, Member) else "") or str(request)
         return cls(title, values, display_unit(measured_in(motion.plan, kind)) if unit is None else unit, digits, request)

@@ -121,8 +121,9 @@ class JointPart:
     def force_over(self, motion: AnyMotion, acting: Acting) -> FloatArray:
         """Return it over a motion's poses [N], shape (...)."""
         known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
-        require_motion(motion)._refuse_part(f"the force at {self.point}")
-        found = pin_forces_under(require_motion(motion), acting)
+        asked = require_motion(motion)
+        asked._refuse_part(f"the force at {self.point}")
+        found = pin_forces_under(asked, acting)
         structure = found._structure
         full = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
         contact, joint, sign = full.contact(structure)

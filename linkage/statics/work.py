@@ -77,7 +77,7 @@ def stroke_force(motion: Motion, acting: Acting, drive: str | None, efficiency: 
     held = motion_of_whole(motion, motion.plan.members[stroke])
     if held is not None:
         whole, own = held
-        return stroke_force(require_motion(whole), replace(acting, drive=own.name), own.name, efficiency)
+        return stroke_force(whole, replace(acting, drive=own.name), own.name, efficiency)
     motion = held_in_case(motion, acting)
     rates = rates_in(motion, acting, stroke)
     applied = applied_loads(motion, acting, rates)

@@ -170,7 +170,7 @@ def test_what_bounds_a_pressure_and_a_force_is_told_in_the_unit_of_the_one_that_
     assert (held["kept"], pulled["kept"], units) == (True, False, ["bar", "kN"])
     assert [held["value"], pulled["value"]] == pytest.approx([(40 * kN + rod) / (np.pi / 4 * 0.12**2), rod - 30 * kN], rel=1e-9)
     assert f"holding line {(rod - 30 * kN) / kN:.4g} kN" in pose_sentence(Backed(**{"load.y": 30 * kN}).at(S=0.2))
-    judge = Backed().judge()
+    judge = Backed(**{"load.y": -400 * kN}).judge()
     assert judge.answer(rules_of(judge)["holding line"][2]).measures == "pressure"  # of the two that which counts
 
 

@@ -14,7 +14,7 @@ from ..loads import PLAIN_CASE
 from ..mechanism import verdicts_of
 from ..motion import Answer, Column, MotionFunction, Request, places_text
 from ..motion.measures import Constraint, least, measure_of, most
-from ..pictures.page_judge import share_used, used
+from ..pictures.page_judge import share_used
 from ..pictures.shown_values import limit_of
 from ..reports import is_column
 from ..units import display_unit, rounded_up, show, shown_number
@@ -96,7 +96,7 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[object]]
     for name, each in answers.items():  # what is missed by the rounding of the column's own numbers is kept, as verdicts have it
         if each.ok is False and name in columns and abs(each.value - limit_of(limits[name]).value) <= CLOSE * largest(columns[name].values):
             answers[name] = replace(each, ok=True)
-    return [JudgedRow(heading_of(name), each.ok, each, used(each), columns.get(name)) for name, each in answers.items()]
+    return [JudgedRow(heading_of(name), each.ok, each, float(each.used), columns.get(name)) for name, each in answers.items()]
 
 
 def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
@@ -106,8 +106,8 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
     """
     known = (each for each in answers if each.answer.strokes and not np.isnan(each.answer.value))
     near = (each for each in known if each.ok is False or 0.0 < each.used < np.inf)
-    rows = []
-    for rule, ok, each, of_limit, column, sign in sorted(near, key=lambda each: (each.ok is not False, -each.used))[:MOST_PLACES]:
+    rows, ranked = [], sorted(near, key=lambda each: (each.ok is not False, -(each.used or np.inf)))
+    for rule, ok, each, of_limit, column, sign in ranked[:MOST_PLACES]:
         share = f"{100.0 * of_limit:.0f} %" if 0.0 < of_limit < np.inf else "–"
         measure = each.question.left if isinstance(each.question, Constraint) else each.question
         kind, quantity = each.measures or measure_of(subject.machine.plan, measure), getattr(measure, "quantity", None)

@@ -48,7 +48,7 @@ NONE_LOST = LostPlaces()
 
 PerDesign: TypeAlias = Any
 """What one design has, of a batch an array over its designs."""
-PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over", "time", "leg")
+PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over", "time", "leg", "used")
 """What each design of a batch has an answer of its own."""
 
 
@@ -90,6 +90,8 @@ class Answer:
         Which leg of a path it is on, from 0; -1 of a box and of poses.
     turned : str
         Of an integral over an angle what stands behind its unit: "rad", or "rad2" of an angle's; "" of a moment's, which is a work.
+    used : float or array
+        How far the limit of a condition is used: 1.0 where it is met exactly, infinite where nothing bounds it, 0.0 where there is none.
     """
 
     question: object
@@ -115,6 +117,7 @@ class Answer:
     """What has to be named, as there are several: "case", "direction", "drive", "side", "over"."""
     leg: PerDesign = -1
     turned: str = ""
+    used: PerDesign = 0.0
 
     def __repr__(self) -> str:
         kept = "" if np.ndim(self.value) or self.ok is None else ": kept" if self.ok else ": not kept"

@@ -144,6 +144,7 @@ class Candidate:
     time: PerDesign = np.nan
     leg: PerDesign = -1
     margin: PerDesign = np.nan
+    limit: PerDesign = np.nan
     undefined: PerDesign = False
     """Whether its measures have values and what is calculated from these has none, such as 0 / 0 or the root of what is negative."""
     seen: Coverage | None = None
@@ -162,13 +163,29 @@ class Candidate:
         """The side of the cylinder that it belongs to, "" for none."""
         return next((each.piece.side for each in self.rows if each.piece.side), "")
 
+    @property
+    def used(self) -> float:
+        """How far its limit is used, 1.0 where it is met exactly; of a limit 0 zero where it is kept, else infinite, as without a bound."""
+        value, limit, symbol = float(self.value), float(self.limit), getattr(self.constraint, "symbol", "")
+        if limit == 0.0 or symbol not in ("<=", ">="):
+            return np.inf if self.margin < 0.0 else 0.0
+        if (symbol == "<=") == (limit > 0.0):
+            return max(value / limit, 0.0)
+        return limit / value if value * limit > 0.0 else np.inf
+
+    def counts_before(self, other: Candidate, plan: Plan) -> bool:
+        """Return whether it is worse: by the margin from the same limit of the same kind, else by how far each one's own limit is used."""
+        one, two = ((measures_of(plan, each.constraint), getattr(each.constraint, "symbol", ""), each.limit) for each in (self, other))
+        is_same = self.constraint is other.constraint or one == two
+        return bool(self.margin < other.margin if is_same else self.used > other.used * (1.0 + TIE))
+
     def of_design(self, place: tuple[int, ...], shape: tuple[int, ...]) -> Candidate:
         """Return that of one design of a batch of some shape, by its place in it."""
         if not shape:  # it is the only one
             return self
         own = {
             name: np.broadcast_to(getattr(self, name), shape)[place]
-            for name in ("value", "margin", "unbounded", "lawless", "unlimited", "time", "leg", "undefined")
+            for name in ("value", "margin", "limit", "unbounded", "lawless", "unlimited", "time", "leg", "undefined")
         }
         strokes = {name: np.broadcast_to(value, shape)[place] for name, value in self.strokes.items()}
         return replace(self, strokes=strokes, design=place, **own)
@@ -836,14 +853,15 @@ class Judge:
         of_leaves = [[each.of_design(design, shape) for each in pieces] for pieces in known]
         for chosen in combined_pieces(of_leaves if is_worst_bound(question) else [*map(worst_pieces, of_leaves)]):
             with np.errstate(all="ignore"):
-                value, margin = valued(question, {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)})
+                value, margin, limit = valued(question, {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)})
             where, time, leg = next(((each.strokes, each.time, each.leg) for each in chosen if each.strokes), ({}, np.nan, -1))
             lawless = reduce(np.fmax, (each.lawless for each in chosen), 0.0)
             unlimited = reduce(np.fmax, (each.unlimited for each in chosen), 0.0)
             undefined = np.isnan(margin) and not any(np.isnan(each.value) for each in chosen)
             unbounded = np.asarray(np.any([each.unbounded for each in chosen]))
             rows = tuple(each.rows[0] for each in chosen)
-            yield place, Candidate(rows, value, where, unbounded, lawless, unlimited, time, leg, margin, undefined, seen, design, question)
+            lacks = lawless, unlimited, time, leg, margin, limit, undefined
+            yield place, Candidate(rows, value, where, unbounded, *lacks, seen, design, question)
 
     def lost_of(self, place: Domain, candidate: Candidate) -> LostPlaces:
         """Return the lost places of a candidate of one design."""
@@ -880,12 +898,13 @@ class Judge:
             for (place, each), own_lost in zip(found, losses, strict=True)
         )
         known = [k for k, margin in enumerate(margins) if not np.isnan(margin)]
-        least = min(known, key=lambda k: margins[k], default=0)
+        least = reduce(lambda a, b: b if candidates[b].counts_before(candidates[a], self.plan) else a, known or [0])
         worst, value, strokes, kept = candidates[least], np.nan, dict[str, float](), False
         place = found[least][0]
         if known and np.isfinite(margins[least]):  # of a tie the place of the first: `Over`, case, extending before retracting
             near = TIE * (abs(margins[least]) + abs(float(worst.value)))
-            first = next(k for k in known if margins[k] <= margins[least] + near)
+            same = (k for k in known if candidates[k].constraint is worst.constraint)
+            first = next(k for k in same if margins[k] <= margins[least] + near)
             place, worst = found[first][0], replace(candidates[first], value=worst.value)
         if known:
             value, strokes = float(worst.value), {name: float(each) for name, each in worst.strokes.items()}
@@ -911,7 +930,7 @@ class Judge:
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
             place.over.name, lost, float(worst.unlimited), outside, place.width if worst.seen is not None else {}, count, units,
             measures_of(self.plan, worst.constraint), float(worst.time) if known else np.nan, named,
-            int(worst.leg) if known else -1, turned_by(place, question),
+            int(worst.leg) if known else -1, turned_by(place, question), 0.0 if is_bare or not known else worst.used,
         )  # fmt: skip
 
     def reached_by(self, design: tuple[int, ...]) -> Answer:
@@ -1053,19 +1072,22 @@ def situation_found(rows: Sequence[SearchRow]) -> Situation:
     return Situation(next((each.case for each in every if each.case), ""), ways[0].direction, ways[0].drive)
 
 
-def valued(question: Any, values: Mapping[Leaf, FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Return a question's value, and its margin: below zero where it is not kept; for a bare measure, least where its one leaf is worst."""
+def valued(question: Any, values: Mapping[Leaf, FloatArray]) -> tuple[FloatArray, FloatArray, PerDesign]:
+    """Return a question's value, its margin, and its limit. The margin is below zero where it is not kept.
+
+    A bare measure has no limit. Its margin is least where its one leaf is worst.
+    """
     if isinstance(question, Measure):
         running = {each for each in question.leaves if not isinstance(each, At)}
         value = np.asarray(question.from_leaves(values.__getitem__), float)
         (leaf,) = running if len(running) == 1 else (question,)
         of_leaf = np.where(np.isnan(value), np.nan, values[leaf]) if isinstance(leaf, Leaf) and leaf.sense else value
-        return value, of_leaf if leaf.sense < 0.0 else -of_leaf
+        return value, of_leaf if leaf.sense < 0.0 else -of_leaf, np.nan
     left, right = (np.asarray(each.from_leaves(values.__getitem__), float) for each in (question.left, question.right))
     size = MET * np.maximum(np.abs(np.where(np.isfinite(left), left, 0.0)), np.abs(np.where(np.isfinite(right), right, 0.0)))
     apart = {">=": left - right, "<=": right - left}.get(question.symbol)
     margin = 1e3 * size - np.abs(left - right) if apart is None else apart
-    return left, np.where((margin < 0.0) & (margin >= -size), 0.0, margin)
+    return left, np.where((margin < 0.0) & (margin >= -size), 0.0, margin), right
 
 
 def measures_of(plan: Plan, question: object) -> str:

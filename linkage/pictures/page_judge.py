@@ -294,19 +294,7 @@ def share_used(judge: Judge, verdict: Verdict, answer: Answer) -> tuple[PageWord
     kind = answer.measures or measure_of(judge.plan, question)
     if words.share is not None:
         return words, kind, float(judge.answer(words.share).value)
-    return words, kind, 0.0 if verdict.ok and kind == "length" else used(answer)
-
-
-def used(answer: Answer) -> float:
-    """Return how far a limit is used, 1.0 where it is met exactly; 0.0 where no plain limit tells, infinite where nothing bounds it."""
-    question = answer.question
-    if not isinstance(question, Constraint) or question.right.leaves:
-        return 0.0
-    value, limit = float(answer.value), float(question.right.from_leaves(dict[Leaf, float]().__getitem__))  # it has none
-    if limit == 0.0:
-        return np.inf if answer.ok is False else 0.0
-    of, by = map(abs, (value, limit) if question.symbol == "<=" else (limit, value))
-    return np.inf if of > 0.0 and by == 0.0 else of / by if np.isfinite(by) else 0.0
+    return words, kind, 0.0 if verdict.ok and kind == "length" else float(answer.used)
 
 
 def live_unit(plan: Plan, asked: Measure | Constraint) -> PageData:

@@ -53,11 +53,7 @@ function answerText(question, each) {
   return data.limits[rule] ? `${plain} (${limitText(data.limits[rule])})` : plain;
 }
 /* How much of its limit is used, 1 where it is met exactly; not a number where there is no such share. */
-function shareOf({ isLength }, each) {
-  if (each.share !== undefined) return max(each.share, 0);
-  if ((isLength && each.kept) || !(abs(each.value) >= 0) || !(each.limit > 0)) return NaN;
-  return each.symbol === "<=" ? max(each.value / each.limit, 0) : each.value > 0 ? each.limit / each.value : NaN;
-}
+const shareOf = ({ isLength }, each) => (each.share !== undefined ? max(each.share, 0) : (isLength && each.kept) || !(abs(each.value) >= 0) ? NaN : each.used || NaN);
 /* The delivered verdicts in the language and the units chosen. */
 function delivered() {
   const inUnits = data.verdictsIn[system];
@@ -197,7 +193,7 @@ function judge(n = STILL) {
   list(found);
   count(found);
 }
-const weight = ({ ok, share, rule, stale }) => (stale ? -1e7 : 0) + (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
+const weight = ({ ok, share, rule, stale }) => (stale ? -1e7 : 0) + (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : ok === false ? 1e5 : -1);
 function list(found) {
   const groups = new Map(), worst = ([, rows]) => max(...rows.map(weight));
   for (const each of found) {
@@ -270,11 +266,10 @@ function remedies(q) {
 }
 /* A bar of how much of its limit is used, and the share in figures. */
 function bar({ share }) {
-  const place = make("span", { className: "share" });
+  const place = make("span", { className: share > 1 ? "share over" : "share" });
   if (!isNumber(share)) return place;
   const fill = make("i"), percent = `${fixed(100 * share, share < 0.995 || share > 1.005 ? 0 : 1)}\u2009%`;
   fill.style.width = `${min(max(100 * share, 1), 100).toFixed(0)}%`;
-  if (share > 1) place.classList.add("over");
   place.title = say("{share} of its limit is used", { share: percent });
   place.append(make("span"), percent);
   place.firstChild.append(fill);

@@ -9,7 +9,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import AssemblyError, DefinitionError, Force, Ground, LinkMass, Spring, Weight, deg, driving_force, kN, mm, pin_forces
 from linkage.cli import main
-from linkage.documents.worst_places import used
 from linkage.units import g0
 from mechanisms.three_point_hitch import (
     CATEGORIES,
@@ -310,7 +309,7 @@ def test_no_mass_tips_a_tractor_whose_implement_stands_over_the_wheels():
 
 def test_front_axle_verdicts():
     kept = verdict(ThreePointHitch, "front axle")
-    assert kept.startswith("ok") and used(kept.answer) == pytest.approx(0.2 * 8000 * g0 / kept.answer.value)
+    assert kept.startswith("ok") and kept.answer.used == pytest.approx(0.2 * 8000 * g0 / kept.answer.value)
     light = verdict(ThreePointHitch, "front axle", **{"load.mass": 3000})
     assert light.startswith("FAIL") and "At most 2179 kg, or 602 kg of ballast over the front axle." in light
     assert "the tractor tips over backwards" in verdict(ThreePointHitch, "front axle", **{"load.mass": 5000})

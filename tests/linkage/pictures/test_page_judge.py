@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from hydraulics import Cylinder, LiftCircuit, OilLine, Pump, Tank, Telescope, pressure, thrust
+from hydraulics.cylinders import AllOf
 from hydraulics.remedy import show_enough
 from linkage import (
     RIGHT,
@@ -172,6 +173,48 @@ def test_what_bounds_a_pressure_and_a_force_is_told_in_the_unit_of_the_one_that_
     assert f"holding line {(rod - 30 * kN) / kN:.4g} kN" in pose_sentence(Backed(**{"load.y": 30 * kN}).at(S=0.2))
     judge = Backed(**{"load.y": -400 * kN}).judge()
     assert judge.answer(rules_of(judge)["holding line"][2]).measures == "pressure"  # of the two that which counts
+
+
+class Strong(Compares):
+    """What bounds a pressure, a force from both ends, and a length, as one rule."""
+
+    kind = "strength"
+    limits: ClassVar = (most(pressure("ram")) <= 120 * bar, least(-1.0 * thrust("ram")) >= -80 * kN)
+    rules: ClassVar = {"strength": AllOf((*limits, least(y("P")) >= 0.7, most(thrust("ram")) >= 12 * kN, least(y("P")) >= 0.0))}
+
+
+class Bounded(Backed):
+    strong = Strong()
+
+
+@NEEDED
+def test_of_unlike_kinds_that_one_counts_whose_limit_is_used_most():
+    """A margin of 1 bar is 1e5 and one of 1 kN 1e3 of their units: what is left of each limit is compared in parts of it."""
+    random = np.random.default_rng(8)
+    designs = [{"load.y": -float(force)} for force in random.uniform(10 * kN, 140 * kN, 12)] + [{"load.y": 5 * kN}]
+    designs += [{"load.y": -60 * kN, "ram.bore": bore} for bore in (0.09, 0.1, 0.16)]
+    _, data, found = asked_in_node(Bounded(), [(design, 5, True) for design in designs])
+    q = next(q for q, each in enumerate(data["questions"]) if each["rule"] == "strength")
+    counted = set()
+    for design, asked in zip(designs, found, strict=True):
+        judge, live = Bounded(**design).judge(), asked["found"][q]
+        single = [judge.answer(each) for each in Strong.rules["strength"].each]
+        alone = [*map(share_by_hand, single)]
+        whole = judge.answer(Strong.rules["strength"])
+        chosen = alone.index(max(alone))
+        assert live["c"] == chosen and whole.value == single[chosen].value and whole.measures == single[chosen].measures
+        assert whole.used == pytest.approx(alone[chosen]) == number(live["used"])
+        assert live["kept"] == whole.ok == all(each.ok for each in single)
+        counted.add(chosen)
+    assert counted >= {0, 1, 2, 3}
+
+
+def share_by_hand(answer):
+    """Return how far a limit is used: a bound from above by value over limit, from below the other way."""
+    value, limit = float(answer.value), float(answer.question.right.from_leaves({}))
+    if answer.question.symbol == ">=" and limit > 0.0:
+        return limit / value if value > 0.0 else np.inf
+    return value / limit if limit else 0.0 if answer.ok else np.inf
 
 
 class Cornered(Grab):

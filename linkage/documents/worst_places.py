@@ -102,11 +102,12 @@ def limit_answers(subject: ReportSubject, limits: Mapping[str, Sequence[object]]
 def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterator[TableBlock]:
     """Yield the table of the worst places of some rules, if there are any: those not kept first, then by how far the limit is used.
 
+    What has no such share stands behind those that have one, as on a page.
     A rule that is kept and says of no limit how far it is used has no worst place.
     """
     known = (each for each in answers if each.answer.strokes and not np.isnan(each.answer.value))
     near = (each for each in known if each.ok is False or 0.0 < each.used < np.inf)
-    rows, ranked = [], sorted(near, key=lambda each: (each.ok is not False, -(each.used or np.inf)))
+    rows, ranked = [], sorted(near, key=lambda each: (each.ok is not False, -each.used if each.used < np.inf else 0.0))
     for rule, ok, each, of_limit, column, sign in ranked[:MOST_PLACES]:
         share = f"{100.0 * of_limit:.0f} %" if 0.0 < of_limit < np.inf else "–"
         measure = each.question.left if isinstance(each.question, Constraint) else each.question

@@ -134,10 +134,9 @@ class PageRequests:
         alive = [each for each in moving if not self.columns[each][2]]
         shown = alive or moving or list(self.columns)
         _, told, _ = self.english_verdicts
-        facts = ((each.ok is False, fact_data(self, each)) for each in told or () if each.member)
-        weights = [(fails, *(share or [np.inf if fails else -1.0]), member) for fails, (member, _, _, *share) in facts]
-        ranked = sorted(weights, key=lambda each: each[:2], reverse=True)  # as the list on the page has them
-        members = ({member, *needs(self.plan.members[member])} for *_, member in ranked)
+        facts = [(each.ok is False, fact_data(self, each)) for each in told or () if each.member]
+        ranked = sorted(facts, key=lambda fact: (fact[0], *fact[1][3:]), reverse=True)  # as the list on the page has them
+        members = ({member, *needs(self.plan.members[member])} for _, (member, *_) in ranked)
         own = ([each for each in shown if among & {*re.findall(r"[\w.]+", each)}] for among in members)
         return next(filter(None, own), shown)[-1]
 

@@ -57,7 +57,7 @@ def gas_number(value: object) -> object:
 
 def gas_kind() -> Any:
     """Return how a gas law is read, a word or a table, and written."""
-    from linkage.files.validators import Kind, number_of
+    from linkage.files.entry import Kind, number_of
 
     def read(given: Any, names: Any) -> Gas:
         table = {"law": given} if isinstance(given, str) else given
@@ -79,9 +79,8 @@ def on_line_kind(block: type[Any], *fittings: type[Any]) -> Any:
 
     That of accumulators is their own; one of `fittings` says its class as well, `{ Tank = [], pressure = "5 bar" }`.
     """
-    from linkage.files.entry import Within, check_keys, made_of, read_table
+    from linkage.files.entry import Kind, Within, check_keys, made_of, read_table
     from linkage.files.source import Mistakes
-    from linkage.files.validators import Kind
 
     classes = {each.__name__: (each, Within.of(each)) for each in (block, *fittings)}
 
@@ -113,7 +112,7 @@ def on_line_kind(block: type[Any], *fittings: type[Any]) -> Any:
 
 def filled_kind() -> Any:
     """Return how it is read and written where an oil line is filled: a word, a number, or numbers by name."""
-    from linkage.files.validators import Kind, file_value, quantity_of
+    from linkage.files.entry import Kind, file_value, quantity_of
 
     def one(given: Any, names: Any) -> Any:
         found = quantity_of(given, names)
@@ -129,7 +128,7 @@ def filled_kind() -> Any:
 
 def pressure_kind(pump: type[Any]) -> Any:
     """Return how a pressure is read and written for which a pump may stand, by its name, or as a table where it has none."""
-    from linkage.files.validators import Kind, amount
+    from linkage.files.entry import Kind, amount
 
     plain, unnamed = amount("bar"), on_line_kind(pump)
 

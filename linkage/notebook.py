@@ -24,8 +24,7 @@ from matplotlib.figure import Figure
 from .assembly import Assembly
 from .errors import LinkageError
 from .formulas import Equations
-from .formulas.mathml import mathml
-from .formulas.typeset import boxes, breakable
+from .formulas.typeset import boxes, breakable, mathml
 from .language import said
 from .mechanism import Mechanism
 from .mobility import ChainTables
@@ -35,7 +34,7 @@ from .pictures.dimensioned import dimensioned
 from .pictures.sheet import Picture
 from .plan import Plan, printed
 from .reports import NOTHING, design_rows, stroke_middles, stroke_rows
-from .reports.table import column_texts, flat
+from .reports.values import column_texts, flat
 from .shown import Shown, ShownList
 from .statics import PinForces, max_table
 from .statics.table import max_headings

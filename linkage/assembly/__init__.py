@@ -2,8 +2,7 @@
 
 from ..star import declare_public
 from .angle_continuation import NONE_SOLVED, ambiguous_angle, with_angles
-from .assemble import assembled
-from .chain_parts import chain_parts
+from .assemble import assembled, chain_parts
 from .groups import GroupSolution, solve_groups
 from .live import angles_text, constants_text, groups_text, json_of
 from .modes import Assembly, assemblies, members_on_sides

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import DefinitionError, FileError, ensure
-from ..files.criterion import quantity_said
+from ..files.expression import quantity_said
 from ..files.source import csv_rows, heading_read
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, RequestLike, Target, stroke_measure

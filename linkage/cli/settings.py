@@ -389,7 +389,7 @@ def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, kno
     if not any(sign in text for sign in "()+-*/"):
         is_point = f" {text} is a point; `draw --path {text}` draws its path." if text in plan.points else ""
         raise DefinitionError(f"{unknown('Column', text, known, where=f'the table of {plan.title}')}{is_point}")
-    from ..files.criterion import quantity_said
+    from ..files.expression import quantity_said
 
     found = quantity_said(text, machine)
     is_of_forces = isinstance(found, Request) and bool(found.movements(plan, True))

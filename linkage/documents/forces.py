@@ -17,17 +17,7 @@ from ..motion import Column, Motion, Request, drive_kind, least, most, places_te
 from ..plan import Plan
 from ..plan.members import FRAME
 from ..program import FloatArray
-from ..statics import (
-    JointForce,
-    PinForces,
-    PinLoad,
-    drive_force,
-    held_in_case,
-    holders_of,
-    judged_table,
-    pin_forces,
-    thrust_from_forces,
-)
+from ..statics import JointForce, PinForces, PinLoad, drive_force, held_in_case, holders_of, judged_table, pin_forces, thrust_from_forces
 from ..units import factor, shown_in, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Section, TableBlock

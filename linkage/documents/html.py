@@ -10,8 +10,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from ..disk import replacing_text
-from ..formulas.mathml import mathml
-from ..formulas.typeset import boxes
+from ..formulas.typeset import boxes, mathml
 from ..language import said
 from .breaking import line_pieces
 from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, TableBlock, captions_of

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import hashlib
+import inspect
+import json
 import os
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import Any
 
 from ..disk import OF_FILE, check_name, check_place
 from ..errors import DefinitionError, LinkageError, cited, known_name, require, require_type, unwarned
-from ..language import current_language, said, translated, with_decimals
+from ..language import ENGLISH, current_language, language, said, translated, with_decimals
 from ..language import language as spoken
 from ..loads import Acting, situation_of
 from ..mechanism import Mechanism, played_along
@@ -20,24 +25,58 @@ from ..motion import HasVerdicts, Motion, speakers, stroke_display_unit, way_tex
 from ..motion.measures import least, most
 from ..motion.motion_verdicts import domain_words, verdict_questions
 from ..pictures.shown_values import limit_of, named_points, typeset
+from ..plan import written_out
 from ..quantities import Dimension
 from ..reports import NOTHING, At, column_among
 from ..units import current_system, unit_system
-from .assumptions import assumptions_section, standards_section
 from .calculation import calculated, calculation_blocks, has_loads
 from .checks import checks_section
-from .content import Block, Cell, Document, Illustration, Mark, Section, TableBlock
-from .fingerprint import fingerprint, own_version
+from .content import Block, Cell, Document, Illustration, Mark, Section, TableBlock, TitleBlock
 from .forces import drives_asked, forces_section
 from .html import write_html
-from .in_time import in_time_section
-from .inputs import definition_section, inputs_section, own_paragraphs, plain_words
+from .inputs import assumptions_section, definition_section, inputs_section, own_paragraphs, plain_words, standards_section
 from .markdown import write_markdown
-from .outcome import column_questions, limits_section, members_sections, results_blocks, sketch_section
+from .outcome import column_questions, in_time_section, limits_section, members_sections, results_blocks, sketch_section
 from .pdf import check_typst, write_pdf
 from .run import ReportSubject
-from .title import TitleBlock
 from .worst_places import verdict_section
+
+ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
+
+
+def fingerprint(machine: Mechanism, strokes: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of a design's inputs in hexadecimal: members, dimensions, loads, load cases, and the strokes looked at.
+
+    It is the same in every process and language; a function among the members counts by its source.
+    """
+    with language(ENGLISH):
+        members = written_out(machine.plan, machine.dimensions)
+    functions: dict[str, list[str]] = {}
+    for name, member in machine.plan.members.items():
+        for _, value in sorted(vars(member).items()):
+            if inspect.isfunction(value):
+                try:
+                    source = inspect.getsource(value)
+                except (OSError, TypeError):  # it has none
+                    source = value.__qualname__
+                functions.setdefault(name, []).append(source)
+    inputs = {
+        "machine": machine.plan.title,
+        "members": {name: ADDRESS.sub("", text) for name, text in members.items()},
+        "functions": functions,
+        "dimensions": {name: repr(float(value)) for name, value in machine.dimensions.items()},
+        "strokes": {name: [repr(float(each)) for each in values] for name, values in strokes.items()},
+    }
+    return hashlib.sha256(json.dumps(inputs, sort_keys=True, ensure_ascii=True).encode()).hexdigest()
+
+
+def own_version() -> str:
+    """Return the version of this package; "" where it runs from a folder without being installed."""
+    try:
+        return version("hydrolinkage")
+    except PackageNotFoundError:
+        return ""
+
 
 LIMITS = 'limits by the names of columns are expected, limits={"tilt": (0.1, "most")}'
 WRITERS: Mapping[str, Callable[[Document, Path], None]] = {".html": write_html, ".pdf": write_pdf, ".md": write_markdown}

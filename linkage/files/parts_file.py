@@ -16,8 +16,8 @@ from ..plan import Part
 from ..quantities import Member, is_member_or_name, is_nothing, label, quantity
 from ..steps import Point
 from .design import Design, degrees_text
+from .entry import Read, coordinates_of, points_of, quantity_of, switch_of, written_names
 from .source import Keywords, Names, by_whole_names
-from .validators import Read, coordinates_of, points_of, quantity_of, switch_of, written_names
 
 OWN_KEYS: Mapping[str, Read] = {"on": points_of, "at": coordinates_of, "angle": quantity_of, "mirrored": switch_of}
 """What a part has beside its machine and the members that it is given, each with what reads it."""

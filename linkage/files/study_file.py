@@ -32,7 +32,7 @@ from ..study.space import Space, around, known_dimension
 from ..study.tolerances import Tolerance, tolerances_of
 from ..study.variants import is_side
 from ..units import parse, parse_span
-from .criterion import criterion_of
+from .expression import criterion_of
 from .source import TEXT, FileTable, Keywords, Mistakes, Source, by_whole_names, each_of, listed, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]

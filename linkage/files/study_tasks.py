@@ -45,7 +45,7 @@ from ..study.space import Around, coordinates, unit_of
 from ..study.survey import Progress
 from ..units import display_unit, parse_span, show
 from . import study_file
-from .criterion import condition_said, criterion_of, measure_or_constant, measure_said, quantity_said
+from .expression import condition_said, criterion_of, measure_or_constant, measure_said, quantity_said
 from .source import FileTable, Keywords, by_whole_names, each_of
 from .study_file import FindMachine, Settings, StudyHead, amount_said
 

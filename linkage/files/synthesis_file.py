@@ -39,7 +39,7 @@ from ..surroundings import Outline
 from ..synthesis import FunctionTask, PathTask, PoseTask, synthesise
 from ..units import UNITS, factor
 from . import study_file
-from .criterion import condition_said, measure_said, quantity_said
+from .expression import condition_said, measure_said, quantity_said
 from .source import Keywords, Mistakes, csv_rows, each_of, heading_read, is_numeral, unit_factor
 from .study_file import FindMachine, Read, Settings, StudyHead, amount_said
 

@@ -27,9 +27,8 @@ from ..statics import applied_elements, applied_loads, axle_load, member_thrust,
 from ..statics.applied import AppliedElement, case_of
 from ..statics.holding import Holders, PressureLine, holders_of, same
 from ..vectors import FloatArray, Numbers, Scalar
-from .listing import GivenNumber, Listing, ListingLine
+from .listing import LENGTH, NUMBER, GivenNumber, Listing, ListingLine, Term, Unit, term, unit_named
 from .names import Cross, Deg, Direction, Dot, Norm, SymbolNames, Tcos, TurnV
-from .symbolic import LENGTH, NUMBER, Term, Unit, term, unit_named
 
 # The derivative of each line by a stroke: the chain of differentiated primitives.
 #

@@ -25,10 +25,9 @@ from ..statics.applied import case_of
 from ..units import SI, UNITS, factor, shown_in
 from ..vectors import Numbers
 from .forces import WORDS, ForceLines, LineDerivatives, lines_needed, symbols_behind
-from .listing import X_AXIS, GivenNumber, Listing, ListingLine
+from .listing import LENGTH, X_AXIS, GivenNumber, Listing, ListingLine, Unit
 from .names import Cross, Direction, Dot, Tcos, TurnV, TurnVL, escaped_latex, explicit
 from .printing import Latex, Text, number_latex, plain_number
-from .symbolic import LENGTH, Unit
 
 
 def equations(

@@ -41,7 +41,7 @@ class Member:
     argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({})
     """What its arguments are where `expects` and annotations do not tell, for files. What a class says adds to what its bases say.
 
-    A word, such as `body`, `place`, `length` (see `linkage.files.validators`); a class, whose own arguments stand among those of the
+    A word, such as `body`, `place`, `length` (see `linkage.files.entry`); a class, whose own arguments stand among those of the
     member; such a class in a tuple, for a list of values; an object with `read(given, number)` and `write(value)`, or with `kind()`.
     """
 

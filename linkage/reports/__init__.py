@@ -1,7 +1,6 @@
 """Results as text: tables, values with units."""
 
 from .live_columns import LiveColumn, at_its_rates, column_requests, is_column
-from .ranges import closely, reached_span
 from .results import (
     case_along,
     case_shown,
@@ -20,18 +19,19 @@ from .runs import (
     At,
     Run,
     case_title,
+    closely,
     first_stroke,
     in_case_words,
     motion_over,
     one_run,
     reached_motion,
+    reached_span,
     run_along,
     run_of,
     run_words,
     runs_of,
     stroke_middles,
 )
-from .table import dagger_words, joined_tables, text_table, write_csv
-from .values import design_rows, dimension_unit, stroke_rows
+from .values import dagger_words, design_rows, dimension_unit, joined_tables, stroke_rows, text_table, write_csv
 
 __all__ = ["results", "text_table", "write_csv"]

@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited, is_listed, known_name, unwarned
-from ..files.criterion import REQUESTS, request_function
+from ..files.expression import REQUESTS, request_function
 from ..language import noted, said
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement
 from ..mechanism import Mechanism, played_along, require_mechanism

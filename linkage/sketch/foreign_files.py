@@ -19,8 +19,16 @@ from .dxf_layers import read_dxf
 from .found import WORDS, FoundDrive, FoundMachine, JsonTable, printable
 from .linkage_xml import linkage_xml, read_linkage_xml
 from .machine_sketch import MachineSketch
-from .plus_bodies import ENVELOPE, json_in_address, read_plus_bodies
-from .pmks_plus import SHORT, address_text, read_old_address, read_plus_json, read_short_address
+from .pmks_plus import (
+    ENVELOPE,
+    SHORT,
+    address_text,
+    json_in_address,
+    read_old_address,
+    read_plus_bodies,
+    read_plus_json,
+    read_short_address,
+)
 from .pmks_text import pmks_text, read_pmks_text
 from .points_csv import points_csv, read_points_csv
 from .pylinkage_json import read_pylinkage

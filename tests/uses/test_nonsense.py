@@ -74,7 +74,7 @@ from linkage import (
 )
 from linkage import angle as angle_of
 from linkage.cli import main
-from linkage.files.criterion import measure_said
+from linkage.files.expression import measure_said
 from linkage.mobility import grashof
 from linkage.study import Tolerance, monte_carlo, settings_for, sobol, tornado
 from linkage.synthesis import PathTask, PoseTask

@@ -38,14 +38,13 @@ from linkage import (
 )
 from linkage.documents import report_document
 from linkage.documents.content import Equality, Illustration, TableBlock
-from linkage.documents.fingerprint import fingerprint
 from linkage.documents.html import html_text
 from linkage.documents.markdown import markdown
 from linkage.documents.outcome import figures, still_blocks
 from linkage.documents.pdf import pdf
+from linkage.documents.reporting import fingerprint
 from linkage.documents.run import ReportSubject
-from linkage.formulas.mathml import mathml
-from linkage.formulas.typeset import BoxRow, Fraction, Script, boxes, breakable
+from linkage.formulas.typeset import BoxRow, Fraction, Script, boxes, breakable, mathml
 from linkage.formulas.typst import typst_math
 from linkage.language import language
 from linkage.motion import Column, places_text

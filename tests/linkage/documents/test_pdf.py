@@ -10,11 +10,10 @@ from matplotlib.figure import Figure
 
 from linkage import Crank, DefinitionError, Ground, Mechanism, Stroke, Weight, report
 from linkage.documents import pdf as writer
-from linkage.documents.content import Document, Equality, Formula, Illustration, Mark, Section, TableBlock
+from linkage.documents.content import Document, Equality, Formula, Illustration, Mark, Section, TableBlock, TitleBlock
 from linkage.documents.pdf import document_data, pdf
 from linkage.documents.pictures import painted, picture_svg
 from linkage.documents.reporting import report_document
-from linkage.documents.title import TitleBlock
 from linkage.formulas.typeset import Fenced, Lines, boxes
 from linkage.formulas.typst import typst_math
 from linkage.verdict import Verdict

@@ -43,25 +43,21 @@ from linkage.cli import main
 from linkage.cli.listing import registered
 from linkage.cli.machines import find
 from linkage.documents import report_document
-from linkage.documents.assumptions import STANDARD
 from linkage.documents.breaking import LONGEST, formula_pieces
 from linkage.documents.calculation import calculated
 from linkage.documents.checks import closed_walks
-from linkage.documents.content import Equality, Illustration, Section, TableBlock
+from linkage.documents.content import FIELDS, Equality, Illustration, Section, TableBlock, TitleBlock
 from linkage.documents.forces import Stop, blocked_cylinders, body_words, worst_blocked
 from linkage.documents.html import html_text
-from linkage.documents.inputs import dimension_table, member_rows, plain_words
+from linkage.documents.inputs import STANDARD, dimension_table, member_rows, plain_words
 from linkage.documents.markdown import markdown
 from linkage.documents.outcome import CURVE_ROOM, HALF, column_grids, curve_blocks, draw_column, in_two_lines
 from linkage.documents.pdf import pdf
 from linkage.documents.pictures import painted
 from linkage.documents.reporting import NUMBER, cited_numbers, own_system, set_in_type, speaking
-from linkage.documents.run import ReportSubject
-from linkage.documents.sources import without_unit
-from linkage.documents.title import FIELDS, TitleBlock
+from linkage.documents.run import ReportSubject, without_unit
 from linkage.formulas import equations
-from linkage.formulas.mathml import mathml
-from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes, rough_width
+from linkage.formulas.typeset import Box, BoxRow, Fenced, Fraction, Script, Sign, boxes, mathml, rough_width
 from linkage.motion import Column
 from linkage.pictures.shown_values import typeset, unit_typeset
 from linkage.reports.values import with_units

@@ -48,7 +48,7 @@ from linkage import (
 )
 from linkage.cli import main
 from linkage.files import load, save
-from linkage.files.criterion import condition_said, measure_said, quantity_said
+from linkage.files.expression import condition_said, measure_said, quantity_said
 from linkage.files.study_file import range_said, tolerance_said
 from linkage.files.study_tasks import TextMeasures
 from linkage.pictures import style

@@ -5,10 +5,9 @@ import re
 from xml.etree import ElementTree
 
 from linkage import LEFT, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, angle, equations
-from linkage.documents.content import Document, Equality, Mark, Section
+from linkage.documents.content import Document, Equality, Mark, Section, TitleBlock
 from linkage.documents.html import math
 from linkage.documents.pdf import pdf
-from linkage.documents.title import TitleBlock
 from linkage.formulas.names import SymbolNames
 from tests.for_all import for_all
 

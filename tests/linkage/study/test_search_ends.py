@@ -34,7 +34,7 @@ from linkage import (
     x,
     y,
 )
-from linkage.files.criterion import condition_said, measure_said
+from linkage.files.expression import condition_said, measure_said
 from linkage.files.study_tasks import TextMeasures
 from linkage.motion.measures import conditions_of, measure_unit
 from linkage.program import Kernel

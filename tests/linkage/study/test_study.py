@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle, deg, ref, x
 from linkage.motion import each_at_its_stroke
 from linkage.study import Box, settings_for, zone
-from linkage.study.zone import SettingsBox, extremes
+from linkage.study.settings import SettingsBox, extremes
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.for_all import for_all

@@ -85,7 +85,7 @@ LISTED = {
 """Files that go through load cases or directions without judging any."""
 
 MIDDLES = {
-    "linkage/cli/plot.py": "where strokes of a picture stand that are not named",
+    "linkage/cli/report.py": "where strokes of a picture stand that are not named",
     "linkage/notebook.py": "where strokes of a picture stand that are not named",
     "linkage/pictures/dimensioned.py": "where strokes of a picture stand that are not named",
     "linkage/reports/runs.py": "where strokes of a picture stand that are not named",

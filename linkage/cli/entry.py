@@ -24,7 +24,7 @@ from .command import Command
 
 HOMES = {
     "list": "listing", "show": "show", "table": "table", "follow": "follow", "chart": "follow",
-    "limits": "table", "forces": "table", "draw": "plot", "plot": "plot", "animate": "plot", "page": "report", "report": "report",
+    "limits": "table", "forces": "table", "draw": "report", "plot": "report", "animate": "report", "page": "report", "report": "report",
     "export": "export", "save": "export", "optimise": "optimise", "synthesise": "optimise", "study": "optimise", "new": "export",
     "import": "import_file", "board": "board",
 }  # fmt: skip

@@ -162,28 +162,24 @@ class StrokeLines(NamedTuple):
 
     def _track(self, vectors: Vectors, begin: FloatArray | None) -> AnglePath:
         counts = self.length[self.lines] + 1
+        firsts = np.cumsum(counts) - counts
         line = np.repeat(self.lines, counts)
-        place = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts).astype(float)
+        place = np.arange(len(line)) - np.repeat(firsts, counts).astype(float)
         points = Points(line, place, *vectors.at(line, place))
-        inner = np.flatnonzero(line[1:] == line[:-1])
-        left, right = points.subset(inner), points.subset(inner + 1)
-        done: list[tuple[Points, Points, Mask]] = []
-        while len(left.line):
-            with np.errstate(all="ignore"):
-                change, width = right.value - left.value, right.place - left.place
-                size = np.minimum(np.hypot(*left.value), np.hypot(*right.value))
-                off = np.maximum(np.hypot(*(width * left.rate - change)), np.hypot(*(width * right.rate - change)))
-                # no other way than it seems: the vector changes by less than half of itself, and as its derivatives say
-                good = (np.hypot(*change) <= 0.5 * size) & (size > 0.0) & ((off <= 0.25 * size) | (width <= SHORT))
-            tiny = width <= LEAST
-            hopeless = ~np.isfinite(left.value).all(axis=0)  # what lies behind the end of the reach is lost in any case
-            settled = good | tiny | hopeless
-            done.append((left.subset(settled), right.subset(settled), good[settled]))
-            left, right = left.subset(~settled), right.subset(~settled)
+        left, right, among = points.subset(slice(-1)), points.subset(slice(1, None)), line[1:] == line[:-1]
+        done: list[Pieces] = []
+        while among.any():
+            pieces = Pieces.between(left, right)
+            settled = pieces.good | (pieces.width <= LEAST)
+            settled |= ~np.isfinite(left.value[0] + left.value[1])  # what lies behind the end of the reach is lost in any case
+            done.append(pieces.subset(settled & among))
+            rest = np.flatnonzero(~settled & among)
+            left, right = left.subset(rest), right.subset(rest)
             place = 0.5 * (left.place + right.place)
             middle = Points(left.line, place, *vectors.at(left.line, place)) if len(place) else left
             left, right = left.merged_with(middle), middle.merged_with(right)
-        return AnglePath.from_stretches(done, points.subset(points.place == 0.0), begin)
+            among = np.ones(len(left.line), bool)
+        return AnglePath.from_pieces(done, self.lines, counts, points.value[:, firsts], begin)
 
 
 class Points(NamedTuple):
@@ -194,13 +190,40 @@ class Points(NamedTuple):
     value: FloatArray
     rate: FloatArray
 
-    def subset(self, which: Index | Mask) -> Points:
+    def subset(self, which: Index | slice) -> Points:
         """Return some of them."""
         return Points._make(each[..., which] for each in self)
 
     def merged_with(self, other: Points) -> Points:
         """Return these and others after them."""
         return Points._make(np.concatenate(pair, axis=-1) for pair in zip(self, other, strict=True))
+
+
+class Pieces(NamedTuple):
+    """Pieces of ways: the turn of the vector over each [rad], whether it is sure, and whether the end of the reach lies in it."""
+
+    line: Index
+    place: FloatArray
+    width: FloatArray
+    turn: FloatArray
+    good: Mask
+    edge: Mask
+
+    @classmethod
+    def between(cls, left: Points, right: Points) -> Self:
+        """Return the pieces between places; sure are those in which the vector changes by less than half, and as its derivatives say."""
+        (ax, ay), (bx, by), width = left.value, right.value, right.place - left.place
+        with np.errstate(all="ignore"):
+            cx, cy, dot = bx - ax, by - ay, ax * bx + ay * by
+            size = np.minimum(ax * ax + ay * ay, bx * bx + by * by)  # squares of lengths, as are what changes and what is off
+            off = [(width * each.rate[0] - cx) ** 2 + (width * each.rate[1] - cy) ** 2 for each in (left, right)]
+            good = (cx * cx + cy * cy <= 0.25 * size) & (size > 0.0) & ((np.maximum(*off) <= 0.0625 * size) | (width <= SHORT))
+            turn = np.arctan2(ax * by - ay * bx, dot)
+        return cls(left.line, left.place, width, np.where(good, turn, 0.0), good, ~good & ~np.isfinite(bx + by))
+
+    def subset(self, which: Mask) -> Pieces:
+        """Return some of them."""
+        return Pieces._make(each[which] for each in self)
 
 
 class AnglePath(NamedTuple):
@@ -215,35 +238,30 @@ class AnglePath(NamedTuple):
     offsets: FloatArray
 
     @classmethod
-    def from_stretches(cls, done: Sequence[tuple[Points, Points, Mask]], start: Points, near: FloatArray | None) -> AnglePath:
+    def from_pieces(
+        cls, done: Sequence[Pieces], lines: Index, counts: Index, start: FloatArray, near: FloatArray | None
+    ) -> AnglePath:
         """Return the track of settled pieces; the directions at its start lie near some angles, or between -180 and 180 deg."""
-        left, right, good = done[0]
-        for more_left, more_right, more_good in done[1:]:
-            left, right, good = left.merged_with(more_left), right.merged_with(more_right), np.concatenate([good, more_good])
-        order = np.lexsort((left.place, left.line))
-        left, right, good = left.subset(order), right.subset(order), good[order]
+        offsets = np.cumsum(counts + 1.0) - (counts + 1.0)
+        pieces = Pieces._make(map(np.concatenate, zip(*done, strict=True)))
+        own = np.searchsorted(lines, pieces.line)
+        starts = offsets[own] + pieces.place
+        if len(done) > 1:
+            order = np.argsort(starts, kind="stable")
+            pieces, own, starts = Pieces._make(each[order] for each in pieces), own[order], starts[order]
         with np.errstate(all="ignore"):
-            (ax, ay), (bx, by) = left.value, right.value
-            turn = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
-            first = np.arctan2(start.value[1], start.value[0])
+            first = np.arctan2(start[1], start[0])
         if near is None:
             first = np.where(first < STRAIGHT - pi, first + 2.0 * pi, first)
         else:
-            first = first + 2.0 * pi * np.rint((near[start.line] - first) / (2.0 * pi))
-        begin = np.flatnonzero(left.place == 0.0)
-        piece = np.cumsum(left.place == 0.0) - 1
-        gone = np.cumsum(np.where(good, turn, 0.0)) - np.where(good, turn, 0.0)
-        missed: Index = np.cumsum(~good) - ~good
-        angle = first[piece] + gone - gone[begin][piece]
-        lost = missed - missed[begin][piece] > 0
-        angle = np.where(lost, np.nan, angle)
+            first = first + 2.0 * pi * np.rint((near[lines] - first) / (2.0 * pi))
+        begin = np.flatnonzero(pieces.place == 0.0)
+        gone = np.cumsum(pieces.turn) - pieces.turn
+        missed: Index = np.cumsum(~pieces.good) - ~pieces.good
+        angle = np.where(missed > missed[begin][own], np.nan, (first - gone[begin])[own] + gone)
         # next to the end of the reach the angle is that before it; where the vector vanishes there is none
-        edge = ~good & ~np.isfinite(right.value).all(axis=0)
-        change = np.where(good, turn, np.where(edge, 0.0, np.nan))
-        lengths = np.array([right.place[last] for last in [*(begin[1:] - 1), len(piece) - 1]])
-        offsets = np.cumsum(lengths + 2.0) - (lengths + 2.0)
-        starts = offsets[piece] + left.place
-        return cls(starts, left.place, right.place - left.place, angle, change, left.line[begin], offsets)
+        change = np.where(pieces.good | pieces.edge, pieces.turn, np.nan)
+        return cls(starts, pieces.place, pieces.width, angle, change, lines, offsets)
 
     def angle_at(self, line: Index, place: FloatArray) -> FloatArray:
         """Return the angle at places of ways [rad]; NaN where it is lost."""

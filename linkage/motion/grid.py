@@ -17,7 +17,7 @@ from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
 from ..loads import Poses
 from ..plan import ArrayReading, Mask, Plan
-from ..program import QUICKEST, FloatArray, Kernel, Level, Node, RunOptions, ancestors, interpret
+from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Result, RunOptions, ancestors, interpret
 from ..vectors import Numbers
 from .instants import Instants
 
@@ -97,9 +97,12 @@ class Grid:
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), poses (n,) or (m, n)."""
-        designs = self.designs if self._is_plain else self.flat_designs
-        inputs = {**designs, **self._flat_of(self._of_poses)}
-        return {**inputs, **self.solved.inputs} if self.plan.solved else inputs
+        return {**self.given, **self.solved.inputs} if self.plan.solved else self.given
+
+    @cached_property
+    def given(self) -> dict[str, Any]:
+        """The same without what is solved by iteration."""
+        return {**(self.designs if self._is_plain else self.flat_designs), **self._flat_of(self._of_poses)}
 
     @cached_property
     def solved(self) -> GroupSolution:
@@ -151,8 +154,17 @@ class Grid:
             row, count = kernel.floats.pose_values(self.designs, self._of_poses), len(kernel.plan.outputs)
             values = np.array(row[:count])
             return values.reshape((count, *self.shape)) if self.shape else values, all([guard > 0.0 for guard in row[count:]])
-        result = kernel(self.flat, size=self.size)
+        result = self.result(kernel)
         return self.full(result.values), result.is_clear
+
+    def result(self, kernel: Kernel, out: FloatArray | None = None, way: RunOptions = QUICKEST) -> Result:
+        """Return a kernel's result here, shape (outputs, m, n); pins and references are solved only for one that reads them."""
+        reads_solved = not self.plan.solved_names.isdisjoint(kernel.plan.input_names[1])
+        return kernel(self.flat if reads_solved else self.given, out, way, self.size)
+
+    def values(self, kernel: Kernel, way: RunOptions = QUICKEST) -> FloatArray:
+        """Return a kernel's values here, shape (outputs, ...)."""
+        return self.full(self.result(kernel, way=way).values)
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return a kernel's values in the grid's shape."""
@@ -174,7 +186,7 @@ class Grid:
     def angles(self, kernel: Kernel) -> FloatArray:
         """Return the angles of a kernel here [rad], without jumps; kept."""
         if kernel not in self._angles:
-            self._angles[kernel] = self.joining(self, self.full(kernel(self.flat).values), kernel)
+            self._angles[kernel] = self.joining(self, self.values(kernel), kernel)
         return self._angles[kernel]
 
 
@@ -306,7 +318,7 @@ class Angles(NamedTuple):
         """
         if not self.angles:
             return None
-        raw = grid.full(self.kernel(grid.flat, way=way).values)
+        raw = grid.values(self.kernel, way)
         at_end = np.zeros(grid.shape, bool) if reached is None else reached & ~np.isfinite(raw).all(axis=0)
         if at_end.any():
             raw = to_rounding(raw, at_end, self.kernel.plan.outputs, grid.inputs_at(at_end))

@@ -16,7 +16,7 @@ from ..assembly import ambiguous_angle
 from ..errors import DefinitionError, SingularError, SingularWarning, cited, one_word, require, require_type, unknown, unwarned, warn
 from ..frozen import FrozenDict, read_only
 from ..numeric import differences
-from ..plan import ArrayReading, Mask, Part, Plan, failures, negative, rate_name, require_kinds
+from ..plan import ArrayReading, Mask, Part, Plan, failures, rate_name, require_kinds
 from ..program import FloatArray, Kernel
 from ..quantities import FRAME_AXES, Angle, Axes, Coordinate, Distance, Number, Quantity, is_number, quantity
 from ..quantities.member import Member, Reference, as_mapping, name_of, needs
@@ -636,7 +636,7 @@ class Motion(Shown):
         expected = 'rates by name are expected, such as {"px": 0.2, "py": 0.0}'
         require(isinstance(velocities, Mapping) and velocities, f"{title}: velocities", velocities, expected)
         extent = plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
-        size = np.asarray(np.sqrt(self._grid.full(extent(self._grid.flat, size=self._grid.size).values)[0]))  # the machine's [m]
+        size = np.asarray(np.sqrt(self._grid.values(extent)[0]))  # the machine's [m]
         names, slopes, wanted, sizes = list[str](), list[FloatArray](), list[FloatArray](), list[FloatArray]()
         for target, rate in dict[Any, object](velocities).items():
             what = bound(plan, target)
@@ -765,7 +765,7 @@ class Motion(Shown):
         names, signs = tuple(name for name, _ in dimensions), np.tile([float(sign) for _, sign in dimensions], what.rows)
         made = plan.made_beside if Trait.OF_LAWS in what.traits else plan.made
         kernel, touched = made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))
-        switches = grid.full(kernel(grid.flat).values) if touched else ()
+        switches = grid.values(kernel) if touched else ()
         found = self._looked_at(slope(what, names), f"The gradient of {what.sentence}", what, zip(touched, switches, strict=True))
         rows = found.reshape(len(signs), *self.shape) * signs.reshape(-1, *(1,) * len(self.shape))
         return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
@@ -883,8 +883,8 @@ class Motion(Shown):
     def _settle_unreached(self) -> None:
         """Place the poses at a dead point, to rounding; refuse or mask those out of reach."""
         failed: Mask = np.asarray(~np.isfinite(self._places).all(axis=0)) if len(self._places) else np.ones(self.shape, bool)
-        with np.errstate(all="ignore"):
-            failed |= negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
+        if self.plan.following:
+            failed |= (self._grid.values(self.plan.made("following", following_lengths)) < 0.0).any(axis=0)
         if not failed.any():
             return
         reading = self._grid.read_at(failed)
@@ -1111,6 +1111,11 @@ def each_at_its_stroke(
     at_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
     joining = not_joined if like is None else JoinedTo(like._grid, at)
     return Motion(plan, of_each, at_each, "nan", per_design=True, joining=joining)
+
+
+def following_lengths(plan: Plan) -> Kernel:
+    """Return the program of the lengths that follow others [m]."""
+    return Kernel([plan.trace.graph.node(plan.trace.value(length)) for _, length in plan.following])
 
 
 class OnePose:

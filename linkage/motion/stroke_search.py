@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -121,8 +120,8 @@ class StrokeLine:
         Ends of groups are known already, found on the way. The others are looked for together.
         """
         found, stroke = np.array(pairs, float).reshape(-1, 2), self.plan.strokes[self.name]
-        sought, before = np.full(len(found), not self.plan.solved), SETTLED * abs(stroke.end - stroke.start)
-        for k, (inside, outside) in enumerate(pairs if self.plan.solved else ()):
+        sought, before = np.full(len(found), not self.plan.groups), SETTLED * abs(stroke.end - stroke.start)
+        for k, (inside, outside) in enumerate(pairs if self.plan.groups else ()):
             at = np.linspace(inside, outside, 65)
             seen = self.motion_at(at)
             known = [stop for stop in seen._grid.solved.stops if min(inside, outside) <= stop <= max(inside, outside)]
@@ -251,14 +250,14 @@ class StrokeLine:
         """The loops that move, with how clear of their dead points they are."""
         return self.plan.made("clearances", Clearances.for_plan)
 
-    def kernel_inputs(self, x: FloatArray) -> dict[str, Any]:
-        """Return the inputs of the program at values of the stroke."""
+    def kernel_values(self, kernel: Kernel, x: FloatArray) -> FloatArray:
+        """Return a kernel's values at values of the stroke, shape (outputs, n)."""
         strokes = {name: x if name == self.name else np.full(x.shape, self.held[name]) for name in self.plan.strokes}
-        return Grid(self.plan, self.motion._grid.flat_designs, strokes).flat
+        return Grid(self.plan, self.motion._grid.flat_designs, strokes).result(kernel, way=ON_ARRAYS).values[:, 0]
 
     def seen(self, x: FloatArray) -> FloatArray:
         """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""
-        found = self.clearances.kernel(self.kernel_inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        found = self.kernel_values(self.clearances.kernel, x)
         return np.where(self.clearances.is_signed, np.abs(found), found)
 
     def grid(self, low: float, high: float) -> FloatArray:
@@ -280,7 +279,7 @@ class StrokeLine:
 
     def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Interruption, ...]:
         """Return the interruptions, narrowed down from the grid."""
-        sizes = self.clearances.rounding(self.kernel_inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        sizes = self.kernel_values(self.clearances.rounding, x)
         noise = ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None]  # how far rounding moves a clearance at the most
         tops = np.fmax.reduce(seen, axis=1)
         tells = np.array([loop.kind != "length" for loop in self.clearances.loops])

@@ -266,6 +266,11 @@ class Plan(Members, Shown):
         return (*self.grouped, *self.followed)
 
     @cached_property
+    def solved_names(self) -> frozenset[str]:
+        """The same as a set."""
+        return frozenset(self.solved)
+
+    @cached_property
     def may_overflow(self) -> bool:
         """Whether a place may have no value where no guard tells: by arithmetic, or as an angle cannot be followed."""
         return super().may_overflow or bool(self.followed)

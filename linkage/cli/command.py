@@ -18,7 +18,7 @@ from ..language import said
 if TYPE_CHECKING:
     from ..mechanism import Mechanism
 
-MOST = 100_000_000
+MOST = 1_000_000
 """Poses of a command."""
 Option: TypeAlias = Callable[[_ActionsContainer], object]
 """What declares an option, or a group of them, with a parser."""
@@ -151,7 +151,7 @@ def whole_number(text: str) -> int:
     if count < 1:
         raise ArgumentTypeError(f"{text!r} is not a count; give a whole number from 1 on")
     if count > MOST:
-        raise ArgumentTypeError(f"{text} poses do not fit into memory; lower --count, such as to 1001")
+        raise ArgumentTypeError(f"{text} poses are more than the {MOST} of one command; lower --count, such as to 1001")
     return count
 
 

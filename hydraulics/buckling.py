@@ -14,7 +14,7 @@ equal slope at half of it. Against Tetmajer's 335 - 0.62 lambda [MPa] it is at m
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi, sqrt
 from types import MappingProxyType
 
@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, known_name
-from linkage.frozen import refuses_changes
+from linkage.frozen import record
 from linkage.language import noted, said, translated
 from linkage.program import is_traced
 from linkage.units import MPa, show, shown_number
@@ -35,8 +35,7 @@ MOUNTINGS = MappingProxyType({noted("pin-pin"): 1.0, noted("fixed-pin"): 0.69915
 """Buckling length over length, by how the two ends are held (Euler's four cases; 0.699156 is pi over the root of tan x = x)."""
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Buckling:
     """The buckling of a rod that is pressed: `Buckling(60 * mm, mounting="pin-pin")`.
 

@@ -11,13 +11,14 @@ Nothing of it follows the inertia: sharing is quasi-static. Friction and dampers
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from linkage.errors import DefinitionError, ensure, unknown
+from linkage.frozen import immutable
 from linkage.loads import AS_IT_RUNS, Acting, ForceElement
 from linkage.motion import Motion, PoseFunction, Request, ratio
 from linkage.motion.requests import as_they_run
@@ -38,7 +39,7 @@ STANDS = 1e-10
 """Of the rates of the strokes: a length that changes by less stands, to rounding."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Inlet:
     """How a cylinder takes oil from a line while it extends or retracts (`sense` 1 or -1).
 
@@ -61,7 +62,7 @@ class Inlet:
         return "extending" if self.sense > 0.0 else "retracting"
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Branch:
     """The flow of joined cylinders from one line over some instants: `flow` (m,), the `need` (m,), `force` and `speed` of the first.
 
@@ -98,7 +99,7 @@ class Branch:
         return self.useful - (self.signed * self.flow if self.is_fed else self.force * self.speeds[0])
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Consumption:
     """The flows of all consumers over some instants, each with its branches, and the lengths of the cylinders (rams, m) [m]."""
 

@@ -7,7 +7,7 @@ has values at Chebyshev's places, so that all in it is a polynomial to rounding,
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,7 @@ from numpy.polynomial import chebyshev
 
 from linkage import DefinitionError, Verdict
 from linkage.disk import replacing_text
-from linkage.frozen import FrozenDict, immutable, read_only, refuses_changes
+from linkage.frozen import FrozenDict, immutable, read_only, record
 from linkage.language import said
 from linkage.loads import PLAIN_CASE, Acting, ForceElement
 from linkage.motion import Instants, Judge, Motion, from_above
@@ -70,8 +70,7 @@ class PumpEvent:
         return said("at {time}: {sentence}", time=show(self.time, "s", 7), sentence=self.sentence)
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class PumpEnergy:
     """The energy of a cycle [J]: pump = useful + throttled + margin; `braked` is the loads' energy that is throttled away."""
 
@@ -82,7 +81,7 @@ class PumpEnergy:
     braked: float
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Stretch:
     """A stretch between two borders: instants (m,), the pump's pressure there, and each consumer's share and branches.
 
@@ -293,7 +292,7 @@ def unchanged(arrays: Mapping[str, Array]) -> Mapping[str, Array]:
     return FrozenDict({name: read_only(each) for name, each in arrays.items()})
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class PumpRun:
     """A pump's run: its cycle, with its machine, its design and its situation. It stands with the path that the run made."""
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial, reduce
 from operator import add
 from types import MappingProxyType
@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, ensure, is_listed, known_name, require, unknown, unwarned
-from linkage.frozen import immutable, refuses_changes
+from linkage.frozen import immutable, record
 from linkage.language import noted, said, translated
 from linkage.loads import AS_IT_RUNS, AT_REST, FRICTIONLESS, SENSES, DrawnAs, ForceElement, LawElement, Push, Rates, TwoPoint
 from linkage.loads.acting import Acting, ActingKeywords, Case, Loads, situation_of, takes_situation
@@ -57,8 +57,7 @@ SIDE_WORDS: Mapping[str, str] = MappingProxyType({
 })  # fmt: skip
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Chamber:
     """One side of a cylinder, which an OilLine fills: `lift.piston_side`, or by its name, "lift.rod_side".
 

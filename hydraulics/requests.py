@@ -6,7 +6,7 @@ Each is the cylinder's or the circuit's own method, read pose by pose: `motion[p
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial, reduce
 from operator import add
 from types import MappingProxyType
@@ -15,6 +15,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from linkage.errors import DefinitionError, ensure, known_name
+from linkage.frozen import record
 from linkage.loads import DIRECTIONS, FRICTIONLESS, SENSES, Acting, Case, situation_of
 from linkage.mechanism import Mechanism
 from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most
@@ -490,7 +491,7 @@ def buckling(cylinder: Reference, *, case: Case = None, direction: str | None = 
 # A condition of a search.
 
 
-@dataclass(frozen=True)
+@record
 class Fits(Condition):
     """A cylinder's closed and open length serve the whole stroke, and it comes out by no more than it is long closed."""
 

@@ -12,7 +12,6 @@ Source: the flow-sharing and load-sensing valves of mobile machines, as P. Chapp
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass
 from math import inf
 from operator import lt
 from typing import Any, TypeVar
@@ -45,7 +44,7 @@ class PumpLimits:
     least_first: bool
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class FlowDemands:
     """The demands of consumers: flows and needs, those at their ends, and the tiers in which they are served.
 
@@ -63,7 +62,7 @@ class FlowDemands:
     """What those that creep take already."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class FlowSupply:
     """The supply of consumers: `shares` of their demands, 0 to 1, and the pump's `pressure`.
 

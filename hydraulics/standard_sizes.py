@@ -26,7 +26,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from math import pi
 from typing import Literal, NamedTuple, TypeAlias, get_args
@@ -35,7 +35,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, ensure, known_name, require
-from linkage.frozen import keep_own, refuses_changes
+from linkage.frozen import keep_own, record
 from linkage.language import said, with_and
 from linkage.units import inch, mm, show, shown_in, shown_number, unit_sign
 from linkage.verdict import Remark, Verdict
@@ -48,8 +48,7 @@ from .inputs import Array, all_finite, in_metres, not_negative, one_design, one_
 # as makers' catalogues reproduce them.
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Series:
     """A standard's series of bores and rods [m], ascending, and the least and the greatest ratio of piston area to annulus of its pairs."""
 
@@ -305,8 +304,7 @@ class RamSize(ABC):
         return np.asarray(pose_values(flow, "Flow", "flow") / self.area)[()]
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class CylinderSize(RamSize):
     """The size of equal cylinders side by side: areas, forces and flows without a machine.
 

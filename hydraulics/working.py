@@ -9,7 +9,7 @@ level: two cylinders go on at one pressure, or one creeps at the cut-off, with t
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any, TypeAlias, cast
 
@@ -18,7 +18,7 @@ from numpy.polynomial import chebyshev
 
 from linkage import Acting, ForceElement, Mechanism
 from linkage.errors import AssemblyError, DefinitionError, ensure, known_name, require, require_type, unwarned
-from linkage.frozen import FrozenDict
+from linkage.frozen import FrozenDict, immutable, record
 from linkage.language import said, with_and
 from linkage.motion import Instants, Motion, Over
 from linkage.numeric import last_holding
@@ -72,7 +72,7 @@ class PumpMotion(Motion):
     cycle: PumpCycle
 
 
-@dataclass(frozen=True)
+@record
 class Mode:
     """The decisions of a stretch: the choices in sharing, cylinders at an end, and those that go on level or creep at the cut-off."""
 
@@ -82,7 +82,7 @@ class Mode:
     creep: frozenset[int] = frozenset()
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class FlowState:
     """The state over some instants: flows, each consumer's supply, and the rates of the strokes (n, m)."""
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+import dataclasses
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import Any, NoReturn, TypeVar, cast, dataclass_transform
+from operator import attrgetter
+from reprlib import recursive_repr
+from typing import Any, ClassVar, NoReturn, TypeVar, cast, dataclass_transform
 
 import numpy as np
 import numpy.typing as npt
@@ -85,21 +89,60 @@ def keep_own(holder: object) -> None:
             object.__setattr__(holder, name, frozen_copy(value))
 
 
-def refuses_changes(kind: Kind) -> Kind:
-    """Let a frozen dataclass refuse changes in words: a class decorator, written above `@dataclass(frozen=True)`."""
+class Unchanging:
+    """The methods that all classes of frozen values have: each is written here once, since compiling one takes a fifth of a millisecond."""
 
-    def refuse(self: object, name: str, *value: object) -> NoReturn:
+    _compared: ClassVar[Any]
+
+    def __setattr__(self, name: str, *value: object) -> NoReturn:
         title = type(self).__name__
         remedy = f"make a new one, {title}(...), or dataclasses.replace of this one"
         raise DefinitionError(f"{title}.{name} = ...: it does not change; {remedy}.")
 
-    setattr(kind, "__setattr__", refuse)  # noqa: B010 - what the dataclass made says nothing of the remedy
-    setattr(kind, "__delattr__", refuse)  # noqa: B010
+    def __delattr__(self, name: str) -> NoReturn:
+        Unchanging.__setattr__(self, name)
+
+    @recursive_repr()
+    def __repr__(self: Any) -> str:
+        return f"{type(self).__qualname__}({', '.join(f'{each.name}={getattr(self, each.name)!r}' for each in fields(self) if each.repr)})"
+
+    def __eq__(self, other: object) -> bool:
+        return self._compared(self) == self._compared(other) if type(other) is type(self) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._compared(self))
+
+
+GUARDS = Unchanging.__setattr__, Unchanging.__delattr__
+GUARDS_MADE = "_frozen_get_del_attr"
+"""What writes the guards of a frozen dataclass; below 3.13 Python compiles them for each class."""
+
+
+def refuses_changes(kind: Kind, *methods: Callable[..., object]) -> Kind:
+    """Let a class of frozen values refuse changes in words, and have further methods: a class decorator."""
+    for each in (*GUARDS, *methods):
+        setattr(kind, each.__name__, each)
     return kind
 
 
 @dataclass_transform(frozen_default=True, eq_default=False, field_specifiers=(field,))
 def immutable(kind: Kind) -> Kind:
     """Make a class a frozen dataclass whose objects are told apart by identity, and which refuses changes in words: a class decorator."""
-    dataclass(frozen=True, eq=False)(kind)
-    return refuses_changes(kind)
+    own_repr = vars(kind).get("__repr__", Unchanging.__repr__)
+    writers = vars(dataclasses)
+    own = writers[GUARDS_MADE]
+    if sys.version_info < (3, 13):
+        writers[GUARDS_MADE] = lambda *given: GUARDS
+    try:
+        dataclass(frozen=True, eq=False, repr=False)(kind)
+    finally:
+        writers[GUARDS_MADE] = own
+    return refuses_changes(kind, own_repr)
+
+
+@dataclass_transform(frozen_default=True, eq_default=True, field_specifiers=(field,))
+def record(kind: Kind) -> Kind:
+    """Make a class a frozen dataclass whose objects are equal where their values are, and which refuses changes: a class decorator."""
+    compared = attrgetter("__class__", *(each.name for each in fields(immutable(kind)) if each.compare))
+    setattr(kind, "_compared", compared)  # noqa: B010
+    return refuses_changes(kind, Unchanging.__eq__, Unchanging.__hash__)

@@ -9,7 +9,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import singledispatch
 from html import escape
 from io import BytesIO
@@ -25,6 +24,7 @@ from .assembly import Assembly
 from .errors import LinkageError
 from .formulas import Equations
 from .formulas.typeset import boxes, breakable, mathml
+from .frozen import record
 from .language import said
 from .mechanism import Mechanism
 from .mobility import ChainTables
@@ -48,7 +48,7 @@ MOST_ROWS, MOST_COLUMNS = 11, 12
 WIDTH, HEIGHT = 8.0, 6.0  # of a drawing, inch
 
 
-@dataclass(frozen=True)
+@record
 class LivePage(Shown):
     """A live page in a notebook: its HTML, and how high its frame is [pixels]."""
 

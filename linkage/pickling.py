@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
 from inspect import unwrap
 from types import CellType, CodeType, FunctionType
 from typing import Any
 
+from .frozen import immutable
+
 INSIDE = ".<locals>."
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class InnerFunction:
     """A nested function, by its place and its closure; unpickled it is the function."""
 

@@ -8,7 +8,6 @@ places on a way do not depend on the poses asked for, so that a pose is the same
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import pi
 from types import MappingProxyType
 from typing import NamedTuple, Self
@@ -16,6 +15,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from ..frozen import record
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Node
 from ..vectors import Index, Mask, Numbers
@@ -277,7 +277,7 @@ def followed_nodes(plan: Plan, name: str) -> list[Node]:
     return [*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))]
 
 
-@dataclass(frozen=True)
+@record
 class Vectors:
     """The vector whose direction is followed, anywhere on ways; `known` are the angles that it may hang on."""
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import permutations
 
 import numpy as np
 
 from ..errors import AssemblyError, ensure
+from ..frozen import record
 from ..plan import ArrayReading, Plan, as_written
 from ..program import FloatArray
 from ..quantities import Member, joined_names, name_of, of_kind
@@ -27,7 +28,7 @@ SAME = 1e-6
 """Solutions nearer to each other than this part of the mechanism's size are one."""
 
 
-@dataclass(frozen=True)
+@record
 class Assembly(Shown):
     """One way to put a mechanism together: the side of each dyad, and where the points are then [m].
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from ..errors import LinkageError
 from ..formulas import equations
 from ..formulas.numbered import Equations, SheetLine
+from ..frozen import record
 from ..language import said
 from ..loads import Case, ForceElement
 from ..mechanism import Mechanism
@@ -20,7 +20,7 @@ DIGITS = 30
 """The digits that the equations are worked out with, so that what they print is theirs and nothing of it is rounding."""
 
 
-@dataclass(frozen=True)
+@record
 class FilledEquations:
     """The equations of a design at a pose, their values there by name [SI], and why those of its forces are missing, if they are."""
 

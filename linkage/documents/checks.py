@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from ..errors import LinkageError, unwarned
+from ..frozen import record
 from ..language import said
 from ..motion import Motion
 from ..quantities import Dimension, Quantity, Stroke, distance
@@ -22,7 +22,7 @@ NUMERIC = 1e-6
 """The bound of a comparison with numerical derivatives, relative."""
 
 
-@dataclass(frozen=True)
+@record
 class Check:
     """A check: its name, its comparison, the largest relative difference found, its bound; NaN where it could not be made."""
 

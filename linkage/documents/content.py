@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias
 
+from ..frozen import record
 from ..language import said
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ from dataclasses import fields
 from ..errors import require
 
 
-@dataclass(frozen=True)
+@record
 class TitleBlock:
     """The lines of a title block, each as text; "" leaves an empty line to write on. DefinitionError for anything but one line of text."""
 
@@ -62,14 +62,14 @@ class TitleBlock:
 FIELDS = tuple(each.name for each in fields(TitleBlock))
 
 
-@dataclass(frozen=True)
+@record
 class Formula:
     """A formula in LaTeX, as part of a text or a table."""
 
     latex: str
 
 
-@dataclass(frozen=True)
+@record
 class Mark:
     """Whether a rule is kept: its word, and whether that is good; None where it is neither."""
 
@@ -87,7 +87,7 @@ HALF, BESIDE, FORMULA = 50, 3, 8
 """Letters that half a page has room for, that stand beside a cell, and that a formula or a mark takes at the most."""
 
 
-@dataclass(frozen=True)
+@record
 class TableBlock:
     """A table: headings, rows, and how each column stands, "l" to the left, "r" as numbers do, "m" for long text."""
 
@@ -110,7 +110,7 @@ class TableBlock:
         return sum(BESIDE + max(len(each) if isinstance(each, str) else FORMULA for each in column) for column in cells)
 
 
-@dataclass(frozen=True)
+@record
 class Equality:
     """An equation in LaTeX: its number, 0 for none, and the terms between its signs of equality."""
 
@@ -118,7 +118,7 @@ class Equality:
     steps: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@record
 class Illustration:
     """A picture: its name, its size [inch], the room beside its axes [inch: left, right, bottom, top], and its paint function."""
 
@@ -133,7 +133,7 @@ Block: TypeAlias = str | tuple[str, ...] | TableBlock | Equality | Illustration
 """A paragraph of some sentences; short texts below each other, each with a mark in front; a table, an equation, a picture."""
 
 
-@dataclass(frozen=True)
+@record
 class Section:
     """A numbered section."""
 
@@ -163,7 +163,7 @@ def small_kind(block: Block) -> type | None:
     return None
 
 
-@dataclass(frozen=True)
+@record
 class Document:
     """A whole document: its title, its title block, its facts, and its sections."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from math import cos, sin
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import LinkageError, ensure, unwarned
+from ..frozen import record
 from ..language import noted, said, translated
 from ..loads import PLAIN_CASE, Acting, Force, TwoPoint
 from ..motion import Column, Motion, Request, drive_kind, least, most, places_text, stroke_unit
@@ -165,7 +166,7 @@ def worst_rows(subject: ReportSubject, cases: Mapping[str, Sequence[PinLoad] | L
 # Blocked: a point held fast against a stop, a cylinder pushes or pulls with what its relief valve lets through.
 
 
-@dataclass(frozen=True)
+@record
 class Blocked:
     """The largest force of a joint while the machine is blocked.
 
@@ -264,7 +265,7 @@ def worst_blocked(subject: ReportSubject, point: str, held: Mapping[str, tuple[f
     return list(worst.values())
 
 
-@dataclass(frozen=True)
+@record
 class Stop:
     """A point against a stop over some poses: the forces of joints and cylinders from the machine's own loads and two unit forces there."""
 

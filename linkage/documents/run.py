@@ -8,7 +8,7 @@ import re
 import tokenize
 from collections.abc import Container, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from io import StringIO
 from textwrap import dedent
@@ -16,6 +16,7 @@ from textwrap import dedent
 import numpy as np
 
 from ..errors import AssemblyError, LinkageError, SingularError, ensure, require_one_design, require_whole, unwarned
+from ..frozen import immutable
 from ..language import said, translated
 from ..loads import PLAIN_CASE, Acting, Case, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
@@ -102,7 +103,7 @@ def largest(values: object) -> float:
     return float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class ReportSubject:
     """A design, who answers questions over all that it runs, and the runs along which it is shown."""
 

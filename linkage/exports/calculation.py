@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, lru_cache
 from itertools import permutations
 from typing import Any
@@ -18,6 +18,7 @@ from ..formulas.listing import X_AXIS
 from ..formulas.names import Direction
 from ..formulas.numbered import members_with_lines
 from ..formulas.printing import Text
+from ..frozen import immutable
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
 from ..motion import Column
@@ -34,7 +35,7 @@ UNKNOWN: FloatArray = np.empty(0)
 BY_ENGINE = "told by the engine: a number, not a formula"
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class CalculatedColumn:
     """One quantity over the poses: the number of its equation, its name, its words and its SI unit; `expr` is None for plain numbers.
 
@@ -247,7 +248,7 @@ LITTLE = 0.1
 """What a dimension that is zero becomes, in its unit; a hundredth of that where it has none."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class LiveResult:
     """A column of results; its formula in the calculation's symbols, or None, and the dimensions that must stay 0 or 1 for it."""
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from math import copysign, hypot
 from types import MappingProxyType
@@ -17,6 +16,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from ..errors import known_name
+from ..frozen import immutable
 from ..loads import PinFriction
 from ..motion import Motion
 from ..pictures.layout import half_of, label_free, offsets, props
@@ -49,7 +49,7 @@ PIN = 0.5
 """The radius of a pin whose bearing is not declared, in sizes."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Polyline:
     """A line through vertices, shape (n, 2) [mm]; `arcs` are the tangents of a quarter of the arcs that follow each, 0 straight."""
 
@@ -65,7 +65,7 @@ class Polyline:
         return self.arcs or (0.0,) * len(self.vertices)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Circle:
     """A circle [mm]."""
 
@@ -75,7 +75,7 @@ class Circle:
     radius: float
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Lettering:
     """A text whose lower left corner stands at a place, with its height [mm]."""
 
@@ -86,7 +86,7 @@ class Lettering:
     height: float
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Measured:
     """The distance of two places [mm] with the name of the dimension, its line so far to the left, its letters so high [mm]."""
 

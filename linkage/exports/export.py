@@ -6,7 +6,7 @@ import io
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ import numpy as np
 from .. import plugins
 from ..disk import Place, check_name, check_place, replacing
 from ..errors import DefinitionError, ensure, instance_of, known_name, require, require_one_design, require_type
+from ..frozen import immutable
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism, played_along, require_mechanism
 from ..motion import Column, Motion, Over, columns_of
@@ -51,7 +52,7 @@ MOST_POSES = 50
 """More poses in one drawing are no drawing any more."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class ExportJob:
     """The work of an export: a machine or a motion, the file's name, and the other arguments of `export`."""
 

@@ -8,7 +8,7 @@ under their names: `P = { kind = "mypackage.cams:CamFollower", O = "A", lift = "
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
+from dataclasses import MISSING, fields, is_dataclass, replace
 from functools import partial
 from inspect import Parameter, ismethod, signature
 from math import inf
@@ -18,7 +18,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError, cited, did_you_mean, ensure, errors_of, is_listed, known_name, require, require_type
-from ..frozen import FrozenDict, immutable
+from ..frozen import FrozenDict, immutable, record
 from ..loads import ForceElement
 from ..quantities import Member, Number, Quantity, is_number, label, name_of, quantity
 from ..quantities.member import KEPT_AS, annotated_kind, kinds_said
@@ -61,7 +61,7 @@ def file_value(value: object, design: Design, name: str = "") -> object:
     return option_said(value)
 
 
-@dataclass(frozen=True)
+@record
 class Kind:
     """How an argument of one kind is read, by the names of the file, and written, by the design and the name of its variable.
 
@@ -342,7 +342,7 @@ EXAMPLES = {"point": ("A", "O"), "guide": ("rail", "post"), "vector": ("AB",), "
 # -- the arguments of a class ------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@record
 class Argument:
     """An argument of a class, its key in a file, and its default, Parameter.empty where it must be given.
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from importlib import import_module
 from math import isfinite
@@ -19,6 +18,7 @@ from typing import Any, TypeAlias
 
 from .. import loads, plugins, steps, surroundings
 from ..errors import DefinitionError, cited, ensure, is_class_of, known_name, require, require_type, unknown
+from ..frozen import record
 from ..motion import OPTIONS, Over, Planes, stroke_unit
 from ..plan import Part
 from ..quantities import Course, Curve, Dimension, Member, PoseCondition, Quantity, Stroke, is_number, quantity, ramp, ref
@@ -250,7 +250,7 @@ LONGER = 4  # characters that a dimension may be longer in its unit than in SI
 # -- entries that are no tables ----------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@record
 class Bare:
     """How the members of a class stand in a file without keys, such as `A = [0.2, 0.55]`; the only class of its section."""
 
@@ -386,7 +386,7 @@ OWN: tuple[AnEntry, ...] = (
 # -- all that there are ------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@record
 class Registry:
     """The entries there are, by section and word for reading, by class for writing."""
 

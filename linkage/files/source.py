@@ -21,6 +21,7 @@ from unicodedata import normalize
 
 from ..disk import read
 from ..errors import DefinitionError, FileError, cited, ensure, is_listed, known_name, require, require_type, unknown
+from ..frozen import record
 from ..quantities import Member, Quantity, Ref, is_name
 from ..units import UNITS, Amount, units_of
 
@@ -37,7 +38,7 @@ DEEPEST_NAME = 12
 """So many names stand in a dotted one at most: those of parts in parts, of a member, of its number."""
 
 
-@dataclass(frozen=True)
+@record
 class Names:
     """The members of a file by name: the section each stands in, and its kind (`point`, `quantity`, `guide`, ...)."""
 

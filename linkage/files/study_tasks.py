@@ -18,7 +18,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -26,7 +26,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited, ensure, known_name, require, require_type, unknown
-from ..frozen import immutable
+from ..frozen import immutable, record
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, stroke_display_unit, stroke_measure
@@ -54,7 +54,7 @@ from .study_file import FindMachine, Settings, StudyHead, amount_said
 MET_TO_ROUNDING = 1e-12
 
 
-@dataclass(frozen=True)
+@record
 class TextMeasures:
     """The function that a survey measures with: measures and conditions by name, as text, at so many poses of a stroke.
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, TypeAlias
@@ -24,7 +24,7 @@ from typing import Annotated, Any, TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError, cited, ensure, known_name, require, require_type
-from ..frozen import immutable
+from ..frozen import immutable, record
 from ..motion import outside, stroke_measure
 from ..motion.measures import Condition, Measure, measure_of, words_of
 from ..program import FloatArray
@@ -373,7 +373,7 @@ SYNTHESIS: Mapping[str, Read] = {
 #     30.0, 60.0, 12
 
 
-@dataclass(frozen=True)
+@record
 class PointColumn:
     """A column of a task's points: its names, the first of which messages use, its kind, and whether it may be missing."""
 

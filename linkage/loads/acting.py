@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from inspect import Parameter, signature
 from math import pi
 from types import MappingProxyType
@@ -12,7 +12,7 @@ from typing import ClassVar, Literal, Protocol, Self, TypeAlias, TypedDict, Type
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, cited, ensure, known_name, require, require_type, unknown
-from ..frozen import immutable, keep_own, refuses_changes
+from ..frozen import immutable, keep_own, record
 from ..language import said
 from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
 from ..quantities.quantity import plain
@@ -227,8 +227,7 @@ StrokeRates: TypeAlias = Mapping[str, ArrayLike] | Literal["as it runs"] | None
 """How fast strokes move, or how their rates change, by name."""
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Acting:
     """The situation in which forces are asked for: `Acting(case="full", direction="extending", drive="S")`.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from dataclasses import MISSING, Field, fields, is_dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, Self, TypeAlias, TypeVar
 
@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, cited, did_you_mean, ensure, require
-from ..frozen import keep_own
+from ..frozen import immutable, keep_own, record
 from ..quantities import Jointed, Member, Number, Quantity, Reference, Variable, label, name_of, quantity, real, source_text
 from ..quantities.quantity import plain
 from ..steps import Bar, Point
@@ -26,7 +26,7 @@ Rate: TypeAlias = "float | Array"
 Kind = TypeVar("Kind", bound=Member)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Load:
     """A force that acts at a point, as a force element gives it to statics.
 
@@ -50,7 +50,7 @@ class Load:
     """The element that puts it there, where it acts."""
 
 
-@dataclass(frozen=True)
+@record
 class Glyph:
     """The sign of an element in pictures: a word for the form, the points it hangs on, their number, a direction [rad].
 
@@ -82,7 +82,7 @@ class TwoPinned(Protocol):
         """The names of its two points."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Push:
     """The thrust [N] of a straight two-point member, positive where it pushes its ends apart; it broadcasts against the motion.
 
@@ -94,7 +94,7 @@ class Push:
     name: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Share:
     """The share of a tie's force in a straight member: its thrust at a force of 1, positive where it pushes; broadcasts over the poses."""
 
@@ -102,7 +102,7 @@ class Share:
     of: Callable[[Poses], Array]
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Reeving:
     """A member of a tie that bends, as a rope over pulleys: the forces on its points at a thrust of one newton.
 
@@ -119,7 +119,7 @@ class Reeving:
     back_share: Callable[[Poses], Array] = lambda motion: np.zeros(())
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Tie:
     """Straight members whose thrusts follow one force, each with its share: the sum of their lengths, by these shares, is its way.
 
@@ -137,7 +137,7 @@ class Tie:
     added: Quantity | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Friction:
     """Dry friction in a pin of a radius [m], or on the guides a point runs on (radius None; one guide where it is named)."""
 

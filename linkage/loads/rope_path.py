@@ -10,7 +10,6 @@ A tension T pulls at a point with T (u_out - u_in): at a pulley that is the sum 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from math import pi
 from types import MappingProxyType
@@ -80,7 +79,7 @@ class Pulley(LawElement):
         return [*super().words(), f"side={self.side}"]
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Station:
     """A point that a rope runs over, with the pulley there, if it runs over one."""
 

@@ -8,21 +8,20 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal, Self, TypeAlias, cast, get_args
 
 import numpy as np
 
 from ..errors import DefinitionError, can_be_called, cited, ensure, errors_of
-from ..frozen import immutable
+from ..frozen import immutable, record
 from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
 from .element import AT_REST, Array, Formulas, Glyph, LawElement, Parameter, Poses, Push, Rate, Rates, by_speeds, refuse_coincidence
 
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
 
-@dataclass(frozen=True)
+@record
 class Halves:
     """The two bodies of a straight member, of which the second slides in the first: that on A, then that on B.
 

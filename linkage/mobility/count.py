@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import exp, phase
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from ..assembly import places_at, places_drawn
 from ..errors import AssemblyError, DefinitionError, SingularError, ensure
+from ..frozen import record
 from ..plan import Part, Plan, Reading, Trace, carrying_pairs, member_sides, merged, strokes_text
 from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import joined_names, quantity, source_text
@@ -128,7 +129,7 @@ ASIDE = (0.5, 0.37, 0.61)
 """Shares of the strokes at which mobility is looked at again: of whole turns, the middle may be in line, or at rest, as well."""
 
 
-@dataclass(frozen=True)
+@record
 class Mobility:
     """The number of independent motions, by rank and by count, the redundant links, and the loose bodies.
 
@@ -329,7 +330,7 @@ def strokes_at(plan: Plan, share: float) -> dict[str, float]:
     return {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()}
 
 
-@dataclass(frozen=True)
+@record
 class ChainTables(Shown):
     """A chain as a notebook shows it.
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from ..frozen import record
 from ..plan import Plan, Reading
 from ..units import require_number
 from ..vectors import Numbers
@@ -12,7 +12,7 @@ from ..vectors import Numbers
 EQUAL = 1e-9
 
 
-@dataclass(frozen=True)
+@record
 class FourBar:
     """A four-bar of a mechanism: its pins frame, crank, coupler, follower end, and its lengths [m]."""
 

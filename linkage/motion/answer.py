@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import nan
 from typing import Any, Self, TypeAlias
 
 import numpy as np
 
+from ..frozen import immutable
 from ..language import said, translated
 from ..loads import FRICTIONLESS, case_in_words
 from ..units import display_unit, show
@@ -22,7 +23,7 @@ LOST_SHARE = "lost share"
 """What the value of an answer about reach is: a part of the places looked at."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class LostPlaces:
     """Places without a value: their share, the deepest of them [m or rad], and the missing length there.
 
@@ -52,7 +53,7 @@ PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "ov
 """What each design of a batch has an answer of its own."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Answer:
     """The judge's answer to one question: the worst over all places that were looked at. For a batch, arrays over its designs.
 

@@ -10,14 +10,14 @@ the request's own program tells what rounding leaves of it (`Scatter`).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import reduce
 from typing import Any
 
 import numpy as np
 
 from ..errors import SingularError, SingularWarning, warn
-from ..frozen import read_only
+from ..frozen import immutable, read_only
 from ..plan import ArrayReading, Mask, Plan, name_or_pins, opening
 from ..program import FloatArray, Iterated
 from ..steps import Point
@@ -46,7 +46,7 @@ def iterated(plan: Plan) -> tuple[Iterated, ...]:
     return tuple(map(Iterated.from_closure, [plan.trace.at(group.pins[0]).x.closure for group in plan.groups.values()]))
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class PrecisionLeft:
     """Values of a program, how far rounding scatters them, shape (rows, n), and the machine's size [m], shape (n,)."""
 
@@ -73,7 +73,7 @@ class PrecisionLeft:
         return PrecisionLeft(np.hypot.reduce(self.values, axis=0)[None], np.hypot.reduce(self.errors, axis=0)[None], self.size)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Conditioning:
     """How far poses (n,) are from singular ones for a result.
 

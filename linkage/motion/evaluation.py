@@ -7,7 +7,6 @@ pose, has no value, or rests on another law than the one traced. What is said of
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, reduce
 from itertools import accumulate, chain, pairwise
 from typing import Any, NamedTuple
@@ -15,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import DefinitionError
+from ..frozen import record
 from ..plan import NEAR, ArrayReading, Mask, Plan, failures, negative
 from ..program import LAST, QUICKEST, FloatArray, Kernel, Node, Result, RunOptions, Scatter, disturbed
 from .dead_points import DOUBTFUL, ROUGH, Conditioning, PrecisionLeft, iterated, loop_conditions, moving_members
@@ -108,7 +108,7 @@ class CloseLook(NamedTuple):
         return CloseLook(refused, doubtful, missing, empty, self.broken[band, part], self.worst)
 
 
-@dataclass(frozen=True)
+@record
 class Evaluation:
     """Requests over a grid of poses, and how they are worked out. `among` are the places of those that count, by default all.
 

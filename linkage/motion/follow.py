@@ -7,7 +7,6 @@ quickly, or if a pose where the slopes lose a rank lies between.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from math import isfinite
 from typing import Any, TypeAlias
@@ -15,6 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, cited, ensure, one_word, unwarned
+from ..frozen import immutable
 from ..language import said
 from ..numeric.linear import solve_linear
 from ..plan import Mask, Plan, opening
@@ -94,7 +94,7 @@ def start_of(places: Places, start: Any) -> FloatArray:
     return np.array([known[name] for name in places.free])
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Route:
     """The places of a path, with the targets' values at each (n, t)."""
 
@@ -232,7 +232,7 @@ class Route:
         return Motion(self.places.plan, self.places.designs, self.places.every(strokes.T), unreachable)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class TrackedPose:
     """A pose on the way: its strokes, values and slopes, and their determinant, whose sign tells two branches apart."""
 
@@ -242,7 +242,7 @@ class TrackedPose:
     determinant: float
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Track:
     """The strokes (n, k) of a path on one branch, from the first place that it reaches, NaN from where it ends, with the last pose."""
 

@@ -13,7 +13,6 @@ Source: C. Ericson, Real-time collision detection (2005), 5.1 and 5.2.1 (separat
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from itertools import combinations, pairwise, product
 from typing import TypeAlias
@@ -22,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, ensure, unknown
+from ..frozen import immutable, record
 from ..loads import TwoPoint
 from ..numeric import Corners, convex_pieces, crosses_itself, signed_area
 from ..plan import Plan, Reading
@@ -104,7 +104,7 @@ def check_forms(motion: MotionLike, names: Iterable[str]) -> None:
                     raise DefinitionError(f"{what}; correct the dimensions that its corners follow.", member=name)
 
 
-@dataclass(frozen=True)
+@record
 class Piece:
     """A convex piece of a shape: its corners in order, or points of which the outermost count, and how far it is rounded out [m]."""
 
@@ -127,7 +127,7 @@ class Piece:
         return list(combinations(self.places, 2))
 
 
-@dataclass(frozen=True)
+@record
 class BodyShape:
     """The shape of a body: its points, each for itself in the frame, or an outline."""
 
@@ -365,7 +365,7 @@ def ear_room(order: Sequence[Vec], place: int, sense: Scalar) -> Scalar:
 # Where two bodies come nearest.
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class NearestPlaces:
     """The places of two bodies that are nearest to each other, shape (2,) each [m], and their gap [m].
 

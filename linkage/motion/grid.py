@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from hashlib import blake2b
 from math import prod
@@ -14,7 +13,7 @@ import numpy as np
 
 from ..assembly import NONE_SOLVED, GroupSolution, solve_groups, with_angles
 from ..errors import DefinitionError
-from ..frozen import FrozenDict, read_only
+from ..frozen import FrozenDict, immutable, read_only
 from ..loads import Poses
 from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Result, RunOptions, ancestors, interpret
@@ -246,7 +245,7 @@ def not_joined(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     return angles
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class JoinedTo:
     """Angles within 180 deg of those of poses that are known: of `like`, by their number `near`, an array that fits the grid's poses.
 

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from hashlib import blake2b
 from typing import Any, Self
 
 import numpy as np
 
+from ..frozen import immutable
 from ..numeric.line import Index
 from ..program import FloatArray
 from ..quantities import Course
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Instants:
     """Instants of a path in time [s], shaped as the poses there. The rates and accelerations of the strokes go by name.
 

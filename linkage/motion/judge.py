@@ -17,6 +17,7 @@ from typing import Any, TypeAlias, TypeVar, cast
 import numpy as np
 
 from ..errors import DefinitionError, cited, ensure, errors_of, heard, is_listed, known_name, require_type, unwarned, warn
+from ..frozen import immutable, record
 from ..language import current_language, said
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke
@@ -78,7 +79,7 @@ TIE = 1e-9
 # Situations: which load cases and movements occur.
 
 
-@dataclass(frozen=True)
+@record
 class Situation:
     """A load case and a movement that occur: the case's name, the direction, and the stroke that moves; "" for none."""
 
@@ -93,7 +94,7 @@ class Situation:
         return Acting(case=case, direction=self.direction or None, drive=self.drive or None)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class SearchRow:
     """A piece of a leaf in a situation, as something to look for: `sense` is 1.0 where its greatest value is the worst."""
 
@@ -128,7 +129,7 @@ class SearchRow:
         return 1.0 if self.is_reciprocal else self.sense
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Candidate:
     """The worst of rows that occur at once over one `Over`: a value and where, arrays over the designs; shares of the places asked for.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import floor, log10, nan, pi
 from typing import Any
 
@@ -11,7 +10,7 @@ import numpy as np
 
 from ..assembly import lost_at_sketch
 from ..errors import AssemblyError, DefinitionError, SingularError
-from ..frozen import FrozenDict, refuses_changes
+from ..frozen import FrozenDict, record
 from ..language import ENGLISH, language, said, said_of, translated
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..shown import Shown
@@ -19,8 +18,7 @@ from ..steps import Step
 from ..units import SI, UNITS, deg, display_unit, mm, show, shown_number, unit_sign
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class StrokeLimits:
     """The limits along one stroke, the others held. Values in m or rad, as the stroke; printed, angles are in degrees."""
 
@@ -96,8 +94,7 @@ class Limits(FrozenDict[str, StrokeLimits], Shown):
         return "\n".join(map(str, [*self.values(), *box, *([self.remark] if self.remark else [])]))
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class BoxLimits:
     """The limits of several strokes together, over the box of their ranges, which `title` says, or over the given `Over`s.
 
@@ -119,8 +116,7 @@ class BoxLimits:
         return "\n".join([f"{said('together')}: {self.title}", f"  {gone}", *(f"  {each}" for each in self.margins if each.tells)])
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class LoopMargin:
     """The least margin of the loop of a step, and where: of one design numbers, of a batch arrays over its designs.
 
@@ -169,8 +165,7 @@ class LoopMargin:
         }[self.kind]
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Interval:
     """A reachable range of a stroke, and the step that stops it at either end ("" where the scan ends first) [m or rad]."""
 
@@ -197,8 +192,7 @@ DEAD_ANGLE = 1e-6
 """Transmission angles below it are those of a dead point [rad]."""
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Extreme:
     """The least transmission angle of a joint, folded to 0 ... pi/2 [rad], and the stroke where it stands."""
 
@@ -207,8 +201,7 @@ class Extreme:
     stroke: float
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Open:
     """The pins of groups that do not stand where they began after one turn, and after how many they do; 0 where not after six."""
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from importlib.resources import files
 
@@ -18,7 +17,7 @@ import numpy as np
 
 from ..assembly import angles_text, constants_text, groups_text, json_of
 from ..errors import DefinitionError, LawError, UntracedError
-from ..frozen import FrozenDict
+from ..frozen import FrozenDict, record
 from ..plan import ArrayReading, Loop, Plan, rate_name
 from ..program import Inputs, Level, Node, ancestors, arrow_function, replaced
 from ..steps import Point
@@ -30,7 +29,7 @@ REGULAR = (1.0 + math.sqrt(1.0 - 0.3**2)) / 0.3
 """The condition up to which a loop does not count where several near dead points lose digits together."""
 
 
-@dataclass(frozen=True)
+@record
 class LiveText:
     """JavaScript of a machine, and the names of its parts.
 

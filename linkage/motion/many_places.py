@@ -7,7 +7,6 @@ looking up its bounds in rows and columns. Strokes that are left over are spare:
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, product
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError
+from ..frozen import immutable
 from ..numeric.descent import all_known, corners_all, descended, extremes_of_cells, grid_axes
 from ..numeric.line import Index
 from ..numeric.linear import solved_systems
@@ -44,7 +44,7 @@ EDGE = 1e-10
 """How far outside the range of a stroke, in shares of it, a pose counts as at its end."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class PlacePoses:
     """Poses that give places: of which place (n,), unit coordinates of all strokes looked for (n, k), those solved for first."""
 
@@ -61,7 +61,7 @@ class PlacePoses:
         return PlacePoses(self.place[rows], self.unit[rows])
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class ManyPlaces:
     """Targets of one design, the first two of which are x and y of a point, for many places.
 
@@ -204,7 +204,7 @@ class ManyPlaces:
         met[rows] = (np.abs(off) <= MET).all(axis=1)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class PlaceGrid:
     """A grid of strokes with the targets' values there (t, n): axes of the strokes that are solved for, and of those to spare.
 

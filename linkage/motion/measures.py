@@ -20,6 +20,7 @@ from typing import Any, ClassVar, NoReturn, TypeAlias, TypeGuard, TypeVar
 import numpy as np
 
 from ..errors import DefinitionError, FormerName, LawError, UntracedError, article, cited, ensure, require, require_type
+from ..frozen import record
 from ..loads import Acting, Case, LoadCase
 from ..plan import Plan, plan_measure, require_kind
 from ..program import FloatArray
@@ -595,7 +596,7 @@ APART = ("length", "angle", "force", "pressure", "speed", "acceleration", "power
 """Kinds of which no two add or compare. Work and moments are written in many ways, an angle in them often left out."""
 
 
-@dataclass(frozen=True)
+@record
 class MeasureKind:
     """The powers of length, force, angle and time; `is_sure` where no number without a unit stands in a product, which may have had one."""
 

@@ -6,13 +6,14 @@ from abc import abstractmethod
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, ClassVar
 
 import numpy as np
 
 from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, UnfitError, unwarned
+from ..frozen import immutable
 from ..language import heading_of, said
 from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
 from ..plan import Mask, Plan, name_or_pins, opening
@@ -41,7 +42,7 @@ JUDGED = 200
 """Designs of a batch whose members are judged, each by itself."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class PageWords:
     """How a page says a rule: a sentence with {value}, {limit} and {place} where it is kept, in English as the catalogues have it.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any, ClassVar, Self
 
@@ -11,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, FormerName, cited, ensure, is_listed, known_name, require, unknown
-from ..frozen import FrozenDict
+from ..frozen import FrozenDict, record
 from ..language import said
 from ..loads import PLAIN_CASE, Case, LoadCase
 from ..plan import Mask, Plan, require_kind
@@ -425,7 +424,7 @@ class Over(Member):
         return str(self)
 
 
-@dataclass(frozen=True)
+@record
 class Run:
     """The values that each moving stroke passes, as many each, and the values of those held [m or rad].
 

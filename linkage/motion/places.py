@@ -7,7 +7,7 @@ values at its corners and how these bend. Where two branches come close to each 
 from __future__ import annotations
 
 from collections.abc import ItemsView, Iterable, Mapping, Sequence, ValuesView
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import combinations, product
 from typing import Any, NoReturn, TypeAlias
@@ -15,7 +15,7 @@ from typing import Any, NoReturn, TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError, SingularWarning, cited, ensure, known_name, require, require_one_design, require_type, unwarned, warn
-from ..frozen import FrozenDict, read_only, refuses_changes
+from ..frozen import FrozenDict, immutable, read_only
 from ..language import said
 from ..numeric.box import widened
 from ..numeric.descent import all_known, along, corners_all, descended, extremes_of_cells, grid_axes, is_one_solution, without_repeats
@@ -72,7 +72,7 @@ MOST = 64
 """Branches that are told, where infinitely many meet the targets."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class PlaceProgram:
     """Some targets by the strokes that are looked for: kernels of their values, of their slopes, of both, and of the squared size [m2].
 
@@ -109,7 +109,7 @@ def way_of(count: int) -> RunOptions:
     return QUICKEST if count <= FEW else ON_ARRAYS
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Places:
     """Targets of one design, bound to its plan, by the strokes that are looked for; the others are held.
 
@@ -352,7 +352,7 @@ LOST = 1e10
 # -- the search ----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class FoundPlaces:
     """Unit coordinates (n, k) that were found, and by how much the targets are missed there (n, t) [SI]."""
 
@@ -390,7 +390,7 @@ def unmet_words(places: Places, wanted: FloatArray, near: FoundPlaces) -> str:
     return text
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class BranchSearch:
     """A search of solutions in a box of unit coordinates, from -out to 1 + out."""
 
@@ -766,8 +766,7 @@ class StrokeRows(np.ndarray[Any, np.dtype[np.float64]]):
         return StrokeRows, (np.array(self), self.names)
 
 
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Positions:
     """The strokes that give some targets: all branches within the ends of the strokes, ascending by the first stroke.
 

@@ -12,7 +12,6 @@ Source: J. O'Rourke, Computational geometry in C (1998), 7.4.2.
 from __future__ import annotations
 
 import operator
-from dataclasses import dataclass
 from functools import reduce
 from itertools import pairwise
 from typing import Any, TypeAlias
@@ -20,6 +19,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError, cited, ensure, known_name
+from ..frozen import record
 from ..numeric import convex_pieces, crosses_itself
 from ..plan import Plan
 from ..program import FloatArray, Node
@@ -32,7 +32,7 @@ from .gaps import SMALLEST, Pick, nearest_on
 from .requests import NodeRequest
 
 
-@dataclass(frozen=True)
+@record
 class Polygon:
     """A polygon by its corners [m]."""
 
@@ -69,7 +69,7 @@ class Polygon:
         return f"[{', '.join(f'({x:g}, {y:g})' for x, y in self.corners)}]"
 
 
-@dataclass(frozen=True)
+@record
 class Disc:
     """A circle by its centre and radius [m]."""
 
@@ -102,7 +102,7 @@ Shape: TypeAlias = Polygon | Disc
 LISTS = (list, tuple, np.ndarray)
 
 
-@dataclass(frozen=True)
+@record
 class Forbidden:
     """A shape in which a point may not stand: corners, an outline or the name of one."""
 
@@ -125,7 +125,7 @@ def outside(shape: object) -> Forbidden:
     return Forbidden(shape)
 
 
-@dataclass(frozen=True)
+@record
 class Region:
     """Where a point may stand: in one of the shapes `within`, where there are any, and in none of those that are `without`."""
 

@@ -19,6 +19,7 @@ from weakref import ref
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, require
+from ..frozen import immutable, record
 from ..loads import AS_IT_RUNS, DIRECTIONS, Acting
 from ..pickling import object_of, picklable
 from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
@@ -223,7 +224,7 @@ RequestLike: TypeAlias = str | Member | Request
 AnyRequest = TypeVar("AnyRequest")
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class SmoothPiece:
     """A smooth piece of a question: a value per pose, and the side of the cylinder that it belongs to, "" for none.
 
@@ -336,7 +337,7 @@ def dimensions_of(plan: Plan, names: object) -> list[tuple[str, int]]:
 # Values, and ratios of any order.
 
 
-@dataclass(frozen=True)
+@record
 class Value(Request):
     """A point, a vector or a quantity, and the strokes that it is differentiated by, one after the other: a value, or a transfer ratio.
 
@@ -490,7 +491,7 @@ def measured_in(plan: Plan, asked: object) -> str:
     return asked.measured(plan) if isinstance(asked, Request) else asked.measures if isinstance(asked, Quantity) else ""
 
 
-@dataclass(frozen=True)
+@record
 class Combined(Request):
     """One of NumPy's functions of requests, quantities and numbers, per pose. Bound, its parts are requests and numbers.
 
@@ -684,7 +685,7 @@ def bracketed(part: Request | Quantity | float, binding: int) -> str:
     return f"({text})" if binds < binding else text
 
 
-@dataclass(frozen=True)
+@record
 class MotionFunction(Request):
     """A function of a motion that depends on the motion alone, as a request; its results are cached for a design."""
 

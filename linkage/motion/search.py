@@ -8,7 +8,7 @@ one axis it is the path through the poses in their order. Of a grid it is the bo
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise, product
 from typing import Any, Protocol, TypeAlias, runtime_checkable
@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import AssemblyError, DefinitionError, can_be_called, cited, ensure, errors_of, fits_shape, unwarned
+from ..frozen import record
 from ..language import said
 from ..numeric.box import highest_in, values_a_stroke, weights_of
 from ..numeric.line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, stretches, zoomed
@@ -89,7 +90,7 @@ def strokes_moved(motion: Motion) -> tuple[str, ...]:
 # Where on the way of a motion something is below zero, looked for between its poses, whatever their number.
 
 
-@dataclass(frozen=True)
+@record
 class Span:
     """A part of a motion's way, from the strokes `start` to the strokes `end` [m or rad, which `units` say], in the order of the way.
 

@@ -9,12 +9,12 @@ the way.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ..errors import AssemblyError, SingularError, ensure, unwarned
+from ..frozen import immutable, record
 from ..loads import ForceElement, TwoPoint
 from ..numeric.line import CLOSE, SAMPLES, Curve, Index, highest, last_holding, samples, sign_changes, stretches
 from ..plan import Loop, Mask, Plan, failures, missing_words, name_or_pins, opening
@@ -60,7 +60,7 @@ def limits(motion: MotionLike, along: Iterable[str] | None = None) -> Limits:
     return Limits({name: recalled(motion, ("limits", name), line.stroke_limits, of_places=True) for name, line in lines.items()})
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class StrokeLine:
     """One design along one stroke, the others held."""
 
@@ -463,7 +463,7 @@ ON_ARRAYS = RunOptions("numpy")
 INNER = np.arange(1, PARTS) / PARTS
 
 
-@dataclass(frozen=True)
+@record
 class Interruption:
     """An interruption along a stroke: from `low` to `high` [m or rad] a step cannot be assembled; equal at a change point."""
 
@@ -489,7 +489,7 @@ class Interruption:
         return f"{what} of {self.step} at {self.stroke} = {stroke_text(self.low, self.unit)}"
 
 
-@dataclass(frozen=True)
+@record
 class Clearances:
     """The loops of a plan that move, and the kernels of how clear of their dead points they are, and of the size of rounding there."""
 

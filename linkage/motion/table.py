@@ -5,14 +5,14 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from importlib import import_module
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, is_listed, require_type
-from ..frozen import FrozenDict, refuses_changes
+from ..frozen import FrozenDict, immutable, record
 from ..language import heading_of, noted
 from ..loads import ForceElement, LoadCase
 from ..plan import Plan
@@ -30,8 +30,7 @@ LEAST = 1e-9
 """A value that is smaller, compared with the greatest of its column or in the column's unit, is rounding noise."""
 
 
-@refuses_changes
-@dataclass(frozen=True, eq=False)
+@immutable
 class Column:
     """A column of results: values in SI and the unit that they are read in.
 
@@ -229,7 +228,7 @@ class Tabled(Member):
 # What a machine is about: the curve, the paths and the limits that its pictures show where nothing else is asked for.
 
 
-@dataclass(frozen=True)
+@record
 class Featured:
     """What a machine's pictures show where nothing else is asked: a column, paths and limits.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
@@ -14,6 +13,7 @@ from matplotlib.patches import Circle, Polygon
 from matplotlib.text import Annotation, Text
 from matplotlib.transforms import Bbox
 
+from ..frozen import immutable
 from ..language import translated
 from ..program import FloatArray
 from ..units import current_system, factor, shown_in
@@ -39,7 +39,7 @@ TURN_ANGLES = np.radians(np.linspace(-150.0, 70.0, 49))
 """The angles that a curved arrow goes through."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class VectorArrow:
     """A vector at a point [m], shape (2,) each, in SI, with its colour; `text` stands after its value, `name` finds it in the figure."""
 
@@ -55,7 +55,7 @@ class VectorArrow:
         return float(np.hypot(*self.vector))
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class TurningArrow:
     """A moment [Nm] at a point [m], positive counter-clockwise."""
 
@@ -68,7 +68,7 @@ class TurningArrow:
     """The curve's radius in sizes: another one where several stand about one point."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class ArrowLayer:
     """Arrows to one scale, in a unit; `keys` are the meanings of the colours, `sense` the positive direction."""
 
@@ -204,7 +204,7 @@ SHORT = 2.0  # pixels by which a leading line ends before its place, so that tho
 EDGE = 3.0  # pixels kept free along the sheet's edges
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Wording:
     """A text that is to stand near a place [m]: preferably on along a way, shape (2,).
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -12,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Arc
 
+from ..frozen import immutable
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import Quantity, Stroke, source_text
@@ -61,7 +61,7 @@ KEPT = 5
 """How many points of the mechanism a point of a dimension counts as, for the names that keep clear of it."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class LengthLine:
     """A dimension line from P to Q, moved aside: its text, its two ends and those of the lines that lead to it, shape (2,) [m]."""
 
@@ -98,7 +98,7 @@ class LengthLine:
         haloed(ax, self.text, 0.5 * (start + end), LETTERS, style.INK, 3.0, rotation=way, **NUMBER)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class AngleArc:
     """An arc about a corner from one direction to another [rad], counter-clockwise, with its text."""
 

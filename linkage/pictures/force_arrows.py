@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import groupby
 from typing import Any, TypeAlias
 
@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from ..errors import AssemblyError, DefinitionError, SingularError, ensure, require_type, unknown, unwarned
+from ..frozen import immutable, record
 from ..language import noted, said, translated
 from ..loads import PLAIN, Acting, Case, LoadCase, Loads
 from ..motion import Motion
@@ -38,7 +39,7 @@ Rates: TypeAlias = Mapping[str, Any] | None
 SENSE = noted("A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds.")
 
 
-@dataclass(frozen=True)
+@record
 class ForceQuestion:
     """Which forces are drawn: all, or those on one body; and in which situation."""
 
@@ -70,7 +71,7 @@ def force_question(
     return ForceQuestion("" if forces is True else str(forces), Acting(loads, case, direction, rates, drive))
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class ForcesAt:
     """The forces of a machine at one pose, a flat index; `refusal` says in words why there are none."""
 
@@ -215,7 +216,7 @@ SAME = 1e-6
 """Forces whose directions differ by less [rad] are parallel; speeds are equal that differ by a thousandth of it times the largest."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class LeverArm:
     """A lever arm: the dimension from a pin to a force's line of action, and where that force begins, (2,) [m].
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TypeAlias
 
@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from ..errors import require, require_type, unwarned
+from ..frozen import immutable
 from ..language import said, with_and
 from ..motion import Motion, Planes, Request, clearance, gap, nearest_gap, nearest_places, pair_at, pairs_without_planes
 from ..motion.grid import recalled
@@ -36,7 +37,7 @@ Pairs: TypeAlias = tuple[tuple[str, str], ...] | None
 """The bodies that are compared where no `Planes` are declared, pair by pair; None where these or two names say which."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class GapMark:
     """The gap of two bodies at a pose: its name, its two places, shape (2, 2) [m], and its text; another pose's is faint."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import SingularError, unwarned
+from ..frozen import immutable
 from ..language import said, said_of, translated
 from ..motion import Motion, pose_sentence, rates_of, whole_body
 from ..motion.motion_verdicts import all_kept_here
@@ -44,7 +44,7 @@ BEYOND = 0.6
 """A pole further outside what is drawn than this part of it is told in words."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Overlays:
     """The overlays to draw: forces, velocities at stroke rates, poles of bodies, the nearest bodies, bodies loose while locked."""
 
@@ -122,7 +122,7 @@ class Overlays:
                 ax.plot(*path, color=POLE, linewidth=1.1, linestyle=(0, (1.0, 1.6)), zorder=14.0, gid=f"centrode of {body}")
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class PoleMark:
     """A pole: its name, its place (2,) [m], the points that thin lines go to; or, where there is none, the words why."""
 
@@ -139,7 +139,7 @@ class PoleMark:
         return bool(np.isfinite(self.at).all() and left - room < x < right + room and bottom - room < y < top + room)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Overlay:
     """The overlay of one pose on a sheet: arrows to their scales, poles, notes, gaps, lever arms.
 

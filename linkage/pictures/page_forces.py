@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
 from ..errors import LinkageError, UntracedError, unwarned
+from ..frozen import record
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement, Load
 from ..mechanism import Mechanism
 from ..motion import Judge, LiveText, Motion, Request
@@ -49,7 +49,7 @@ class PageArrow(NamedTuple):
     by: str
 
 
-@dataclass(frozen=True)
+@record
 class PageSituation:
     """How a page shows forces over an `Over`: in a load case; over a path in time, the motion, at its rates."""
 

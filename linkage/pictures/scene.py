@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from itertools import chain, combinations, pairwise, product
 from operator import methodcaller
@@ -14,6 +14,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError, ensure, require
+from ..frozen import immutable, record
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
 from ..motion.strokes import strokes_over_axes
@@ -32,7 +33,7 @@ MARGIN = 3.2
 """How far a track goes on beyond the travel, in sizes."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class SlideTrack:
     """A straight track: its origin [m] and its direction at every pose, shape (2, n), and the points that slide on it."""
 
@@ -60,7 +61,7 @@ Pose: TypeAlias = int | tuple[int, ...]
 Bounds: TypeAlias = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True)
+@record
 class TwoForceMember:
     """A two-force member from P to Q: its form, its name, and how far to the left of P -> Q, in sizes, where others share its points.
 
@@ -80,7 +81,7 @@ class TwoForceMember:
         return HALF[self.drawn_as] + abs(self.aside)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Plate:
     """A body's form: in each corner the shares of its points, shape (k, n), counter-clockwise; two corners are a bar."""
 
@@ -92,7 +93,7 @@ class Plate:
         return np.asarray(self.shares @ np.array([places[name] for name in self.points]))
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class DrawnMark:
     """Lines that some points carry, in axes at the first of them [m]: along the direction of the last two, and to its left.
 
@@ -139,7 +140,7 @@ class DrawnMark:
         return np.concatenate([np.empty((0, 2)), *lines, *([self.under[1]] if self.under else [])])
 
 
-@dataclass(frozen=True)
+@record
 class DrawnCylinder:
     """A cylinder from P to Q as it is drawn [m]: its barrel from bottom to mouth, its piston between least and most, moved aside."""
 
@@ -169,7 +170,7 @@ PRIMES = 3
 RAISED = str.maketrans("0123456789", "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079")
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Scene:
     """The things to draw in a motion of one design. Raises DefinitionError for a batch of designs.
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
 
+from ..frozen import immutable
 from ..program import FloatArray
 
 ARC = np.radians(11.3)  # no part of a right angle, so that rounding does not change how many steps a corner takes
@@ -143,7 +144,7 @@ YOKE = 0.38
 """Half the thickness of the piece that holds an element beside its pin, in sizes."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class DrawnLine:
     """One line of a mark: rows of a share of its length, a way along it [m], one across, to the left [m], and 1 where a piston moves it.
 

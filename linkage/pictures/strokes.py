@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from math import ceil
 
 import numpy as np
 
 from ..errors import DefinitionError, require_whole
+from ..frozen import immutable
 from ..language import said, translated
 from ..loads import PLAIN_CASE
 from ..mechanism import Mechanism
@@ -19,7 +19,7 @@ from ..reports import NOTHING, At, Run, column_among, in_case_words, motion_over
 from ..units import factor, show, shown_in
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class StrokeAxis:
     """The stroke that a motion runs along, as a picture shows it: its name, its unit, and its values in that unit, shape (n,).
 
@@ -139,7 +139,7 @@ CLOSED = 1e-6
 """Points that end so near to where they began, compared with the linkage, have gone round."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Playback:
     """A motion along one stroke, the poses in reach in the order they are shown, the column to follow.
 

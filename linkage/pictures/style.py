@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+from ..frozen import record
 
 INK = "#24313f"
 MUTED = "#67737f"
@@ -37,7 +38,7 @@ THIN = 0.8
 DPI = 150
 
 
-@dataclass(frozen=True)
+@record
 class Look:
     """How strongly a mechanism is drawn: `fade` mixes every colour with the paper, 0 to 1; `level` is its layer; `tint` colours it all."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Any, TypeVar
 
 from ..errors import DefinitionError, about, unknown
-from ..frozen import FrozenDict
+from ..frozen import FrozenDict, record
 from ..language import translated
 from ..loads.element import ForceElement
 from ..quantities import Dimension, Distance, Joint, Jointed, JointSide, Length, Stroke, Variable, body_name, joined_names
@@ -26,7 +26,7 @@ from .table import Table
 FRAME = "frame"
 
 
-@dataclass(frozen=True)
+@record
 class Body:
     """Points that move as one. The frame holds all fixed points."""
 

@@ -7,12 +7,12 @@ Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, "Introduction to Interval Anal
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from math import inf, isnan, log
 from types import MappingProxyType
 
 import numpy as np
 
+from ..frozen import record
 from ..vectors import Operators
 from .node import Node
 from .schedule import ancestors
@@ -21,7 +21,7 @@ OUTWARDS = 1e-14
 """By what part of its size an end is moved outwards, for rounding."""
 
 
-@dataclass(frozen=True)
+@record
 class Enclosure(Operators["Enclosure | float", "Enclosure"]):
     """An interval: all values between two bounds, these included."""
 

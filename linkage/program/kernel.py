@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple, Protocol, TypeAlias
 
@@ -16,7 +15,7 @@ import numpy as np
 
 from .. import plugins
 from ..errors import DefinitionError, quoted, require_whole
-from ..frozen import FrozenDict
+from ..frozen import FrozenDict, record
 from ..plugins import Plugins
 from ..vectors import FloatArray, Numbers
 from .cache import compiled
@@ -154,7 +153,7 @@ class Result(NamedTuple):
         return all([guard > 0.0 for guard in self.guards.tolist()])
 
 
-@dataclass(frozen=True)
+@record
 class RunOptions:
     """How a kernel is run: by the back end of a name or a class of one's own, by itself the quickest; and on how many threads."""
 

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from .. import plugins
 from ..errors import instance_of
+from ..frozen import record
 from ..plugins import Plugins
 from .elimination import expanded
 from .node import Level, Node
@@ -255,7 +256,7 @@ CONTINUED = f"const u=[],{PARTS['turns']}=(k,a)=>{{a-=V*Math.round((a-(u[k]??a))
 """Angles continued from pose to pose, NaN passed over; V is a turn."""
 
 
-@dataclass(frozen=True)
+@record
 class Inputs:
     """How inputs are read: the dimensions `d[k]`, all else that is given `p[k]`, by their places there."""
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from heapq import heapify, heappop, heappush
 from operator import attrgetter
 
+from ..frozen import record
 from .node import Level, Node
 
 
@@ -24,7 +24,7 @@ def ancestors(nodes: Iterable[Node], known: Container[Node] = ()) -> list[Node]:
     return sorted(found, key=attrgetter("number"))
 
 
-@dataclass(frozen=True)
+@record
 class Schedule:
     """The nodes of a kernel in an order of dependence: computed once per design, then once per pose."""
 

@@ -7,10 +7,9 @@ other there without a word; a joint says what else is transmitted: across a guid
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from ..frozen import immutable, refuses_changes
+from ..frozen import immutable, record
 from ..vectors import Line, Scalar
 from .member import Member, Where
 from .quantity import Quantity
@@ -18,8 +17,7 @@ from .quantity import Quantity
 Role: TypeAlias = Literal["body", "runner", "slider", "guide", "own"]
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class JointSide:
     """One of the two bodies of a joint, by the points or the guide that belong to it.
 
@@ -35,8 +33,7 @@ class JointSide:
 FRAME_SIDE = JointSide()
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Driven:
     """A quantity that a joint drives: the force along `along` (a letter of its directions) is conjugate to `sign` times it."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, is_dataclass, replace
+from dataclasses import field, is_dataclass, replace
 from itertools import permutations
 from math import atan2, degrees, dist, floor, isfinite, log10, pi, radians, remainder
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 from ..errors import DefinitionError, FileError, cited, ensure, is_listed, is_number, quoted
 from ..files import from_dict, to_toml
 from ..files.design import in_unit
+from ..frozen import record
 from ..mechanism import Mechanism
 from ..quantities import joined_names
 from ..quantities.quantity import plain
@@ -20,7 +21,7 @@ from ..units import show
 Place = tuple[float, float]
 
 
-@dataclass(frozen=True)
+@record
 class SketchSlide:
     """A point that slides on a straight line.
 
@@ -36,7 +37,7 @@ class SketchSlide:
     along: tuple[str, str] | float
 
 
-@dataclass(frozen=True)
+@record
 class SketchDrive:
     """A drive of a sketch, a crank or a cylinder, by a stroke of its own.
 
@@ -63,7 +64,7 @@ class SketchDrive:
     rod: float | None = None
 
 
-@dataclass(frozen=True)
+@record
 class SketchWeight:
     """The weight of a mass at a point.
 
@@ -79,7 +80,7 @@ class SketchWeight:
     mass: float
 
 
-@dataclass(frozen=True)
+@record
 class SketchForce:
     """A force at a point, its direction fixed to the frame.
 
@@ -95,7 +96,7 @@ class SketchForce:
     vector: tuple[float, float]
 
 
-@dataclass(frozen=True)
+@record
 class MachineSketch:
     """Pins by coordinates, named links, fixed pins, slides and drives: a machine as one draws it.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import takewhile
 from math import cos, hypot, pi, radians, sin
 from urllib.parse import parse_qs, unquote
@@ -12,6 +12,7 @@ from zlib import crc32
 
 import numpy as np
 
+from ..frozen import record
 from ..numeric.convex import corner_turn
 from ..units import parse
 from .found import FoundDrive, FoundMachine, JsonTable
@@ -28,7 +29,7 @@ SHORT = re.compile(r"[\w-]{1,2}\.[\w-]+(?:,[\w-]+)*\.[\w-]+,[\w-]+\.[0-3]{3,4}\.
 """How the text of a short address begins: settings as flags, numbers, whole numbers and units."""
 
 
-@dataclass(frozen=True)
+@record
 class PlusJoint:
     """A joint: a pin, or a slide where it `slides`, on a line at an angle [rad] of the frame or through two joints of a link."""
 
@@ -45,7 +46,7 @@ class PlusJoint:
     line: tuple[str, str] | None = None
 
 
-@dataclass(frozen=True)
+@record
 class PlusLink:
     """A link by the keys of its joints; a block only holds the pin and the slide of one joint together."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TypeAlias, TypeVar
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, cited, ensure, errors_of, is_listed, known_name, require, require_type, unknown
+from ..frozen import record
 from ..loads import AS_IT_RUNS, FRICTIONLESS, OWN_LOADS, PLAIN_CASE, Acting, Case, Damper, HasLoads, LoadCase, Loads
 from ..loads.acting import check_factor, shut_members
 from ..loads.element import AT_REST, SENSES, ForceElement, Friction, Load, Poses, Push, Rate, Rates, TwoPinned, check_together
@@ -26,7 +27,7 @@ from .poses import AnyMotion
 Anywhere = TypeVar("Anywhere", bound=AnyMotion)
 
 
-@dataclass(frozen=True)
+@record
 class AppliedLoads:
     """All that acts on a motion in a situation: loads, members with a thrust of their own, friction; forces in the motion's shape.
 
@@ -49,7 +50,7 @@ class AppliedLoads:
         return {each.point for each in self.loads} | {end for each in self.thrusts for end in each.member.ends}
 
 
-@dataclass(frozen=True)
+@record
 class AppliedElement:
     """A force element that counts: in the gravity of a load case, with the factor of its loads."""
 

@@ -8,13 +8,14 @@ With friction the load is found by secants on the same bounds, on lines whose cy
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial
 from typing import Any, TypeAlias, cast
 
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, ensure, require, unwarned
+from ..frozen import immutable
 from ..language import noted
 from ..loads import Acting, Case, Force, ForceElement, Support, TwoPoint
 from ..motion import HasVerdicts, Judge, Motion, Over, RequestLike, speakers
@@ -41,7 +42,7 @@ TRIED = 9
 """At how many poses it is seen whether conditions are affine in the load."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class LoadAt:
     """A load at a point that pulls against a direction of length one, beside the machine's own loads of a load case.
 
@@ -294,7 +295,7 @@ NARROWED, SAME = 60, 1e-13
 """How often a bracket of a load is narrowed at the most, and the share of itself to which it is."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class MemberLimit:
     """A member's own condition, pose by pose, in one situation that occurs: a value stays at or above a number, or at or below it."""
 

@@ -6,12 +6,13 @@ Each body has three rows (forces along x and y, moment about its first point ove
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property, reduce
 
 import numpy as np
 
 from ..errors import DefinitionError, ensure
+from ..frozen import record
 from ..loads import Load, TwoPoint
 from ..plan import Mask
 from ..program import FloatArray
@@ -23,7 +24,7 @@ from .joints import FRAME, Contact, Structure, Strut, UnitWrench, Wrench, follow
 from .poses import FlatPoses, cross, over_zero
 
 
-@dataclass(frozen=True)
+@record
 class LinearForm:
     """A linear form of the unknowns and the frictions, shapes (n, columns), (n, frictions), (n,): row u + friction q + rest."""
 
@@ -44,7 +45,7 @@ class LinearForm:
         return np.asarray((self.row * u).sum(axis=1) + (self.friction * q).sum(axis=1) + self.rest)
 
 
-@dataclass(frozen=True)
+@record
 class System:
     """The equations of one structure at its poses. `length` is a scale [m], if given.
 

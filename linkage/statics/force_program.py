@@ -11,11 +11,12 @@ hold, the same equations are read on arrays, which tell in words why.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError
+from ..frozen import record
 from ..motion import Motion
 from ..motion.evaluation import grid_blocks, part_of_input
 from ..plan import Mask, Plan
@@ -45,7 +46,7 @@ def forces_at(poses: FlatPoses, applied: AppliedLoads, split: str = "refuse") ->
     return by_equations(poses, applied, split) if found is None else found
 
 
-@dataclass(frozen=True)
+@record
 class ForceProgram:
     """The kernels of all joint forces: of the frictions in contacts, and of everything.
 

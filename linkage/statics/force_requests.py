@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import cast
 
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
+from ..frozen import record
 from ..language import said
 from ..loads import AS_IT_RUNS, PLAIN, Acting, Case, Loads, TwoPoint, case_in_words, situation_of
 from ..motion import Judge, Motion, drive_kind, most, require_motion
@@ -109,7 +110,7 @@ COMPONENTS = "x", "y", "couple", "size"
 """What can be asked of a joint: the parts of its force, its couple, the size of its force."""
 
 
-@dataclass(frozen=True)
+@record
 class JointPart:
     """Which part of which joint's force is meant: at a point, on a body from another one, its size or its part along x or y."""
 

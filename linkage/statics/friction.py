@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ..errors import DefinitionError
+from ..frozen import record
 from ..loads import Friction, Rates
 from ..plan import Mask
 from ..program import FloatArray
@@ -43,7 +43,7 @@ def pressing_rows(parts: Sequence[int]) -> tuple[FloatArray, FloatArray, FloatAr
     return first, first + counts - 1, np.where(counts == 2, 1.0, np.sqrt(0.5))[:, None]
 
 
-@dataclass(frozen=True)
+@record
 class PressingForces:
     """The forces that make the frictions: without any (rows, n), and by each friction of one unit (rows, frictions, n).
 
@@ -136,7 +136,7 @@ def newton(q: FloatArray, coefficient: FloatArray, pressing: list[tuple[FloatArr
 # The joints with friction: which way, at what rate, and the unit wrench of their friction.
 
 
-@dataclass(frozen=True)
+@record
 class JointFriction:
     """A joint with friction: the wrench of a friction of 1 N, its coefficient (n,), its rate by the stroke (n,), >= 0.
 

@@ -11,7 +11,7 @@ part.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial, reduce
 from itertools import permutations, product
 from operator import methodcaller
@@ -20,6 +20,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from ..errors import DefinitionError, SingularWarning, ensure, unwarned, warn
+from ..frozen import record
 from ..loads import ForceElement, Poses, Reeving, Tie, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.dead_points import REFUSE, WARN, condition_of_sine, is_or_are
@@ -39,7 +40,7 @@ SLOWEST = 1e-9
 """A length that changes by less than this part of its end's way does not follow a stroke."""
 
 
-@dataclass(frozen=True)
+@record
 class PressureLine:
     """Cylinders that share one pressure, one or more, and the stroke that they take over."""
 
@@ -53,7 +54,7 @@ class PressureLine:
     """Whether its cylinders carry other shares while it pulls than while it pushes: several, one of which works with both sides."""
 
 
-@dataclass(frozen=True)
+@record
 class Holders:
     """The lines that hold, in the order declared, and those with a closed volume or length, each with the input that changes it."""
 
@@ -329,7 +330,7 @@ def stroke_followed(plan: Plan, member: TwoPoint) -> str:
 # The levers: what a thrust does on a unit of each stroke that is taken over.
 
 
-@dataclass(frozen=True)
+@record
 class Levers:
     """The work of each line's first cylinder, plus the others of its line, on a unit of each stroke taken: (n, lines, strokes).
 

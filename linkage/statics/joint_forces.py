@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Unpack
 
 import numpy as np
 
 from ..errors import DefinitionError, ensure, known_name, unknown
+from ..frozen import immutable
 from ..language import said, translated
 from ..loads import AS_IT_RUNS, PLAIN_CASE, Acting, ActingKeywords, LinkMass, Load, Loads, situation_of, takes_situation
 from ..motion import Motion, drive_kind, require_motion
@@ -95,7 +95,7 @@ def agreeing(found: PoseForces, split: str) -> PoseForces:
     return forces_at(poses.without(lost), found.applied, split)
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class PinForces(Shown):
     """All joint forces of a motion in one load case and one direction of motion.
 
@@ -354,7 +354,7 @@ class PinForces(Shown):
         return "\n".join([self._heading, *lines])
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class GlandForce:
     """The guiding forces of a cylinder's rod in its barrel: from the barrel on the rod, at the gland, the barrel's end.
 
@@ -371,7 +371,7 @@ class GlandForce:
         return f"{self.point}: lateral {range_text(self.lateral, 'kN')}, moment {range_text(self.moment, 'Nm')}"
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class JointForce:
     """The force of one joint: on the body `on` from the body `by`, shape (2, ...) [N], with a couple (...) [Nm].
 

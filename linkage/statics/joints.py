@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import product
 from typing import TypeAlias
@@ -15,6 +15,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError, ensure, known_name, unknown
+from ..frozen import immutable, record
 from ..loads import ForceElement, Halves, Load, PinFriction, Push, TwoPoint
 from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
 from ..program import FloatArray
@@ -46,7 +47,7 @@ FRAME = -1
 FRAME_NAME = "frame"
 
 
-@dataclass(frozen=True)
+@record
 class FreeBody:
     """One body that is held in equilibrium. `axis`: two points that turn with it; `slides`: a lone point guided without turning."""
 
@@ -57,7 +58,7 @@ class FreeBody:
     label: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class SlidingPair:
     """A straight member of two bodies, the second of which slides in the first; see `Halves`."""
 
@@ -76,7 +77,7 @@ class SlidingPair:
         return lambda where: Line(where.at(point), (where.at(B) - where.at(A)) * (1.0 / where.link_length(A, B)))
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Strut:
     """A straight two-point member P -> Q: a driven length, a cylinder that holds, or a member whose thrust a law gives.
 
@@ -273,7 +274,7 @@ def refuse_driven(plan: Plan, still: Iterable[tuple[Quantity, str]]) -> None:
 # The joints between bodies.
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Contact:
     """A joint between two bodies: its force acts on the body `on` from the body `by` (indices, -1 the frame), at a point.
 
@@ -315,7 +316,7 @@ class Contact:
         return self.by == FRAME and not self.track and not self.joint.arm
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Gear:
     """The couple on a body that a crank's angle is geared to: against the crank's own, `sign` and factors times it, each to a power."""
 
@@ -629,7 +630,7 @@ def follows_points(plan: Plan, quantity: Quantity) -> bool:
 # What a joint transmits at the poses: the columns of the equations of equilibrium.
 
 
-@dataclass(frozen=True)
+@record
 class Wrench:
     """A force [N] at a place [m] with a couple [Nm]: shapes (2, n), (2, n), (n,)."""
 
@@ -638,7 +639,7 @@ class Wrench:
     couple: FloatArray
 
 
-@dataclass(frozen=True)
+@record
 class UnitWrench:
     """A unit wrench that acts on one body from another: a column of the equations."""
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, ensure, is_listed, unwarned
+from ..frozen import immutable
 from ..language import said
 from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, LinkMass, Load, LoadCase, Push, Rate, Rates, StrokeRates, Weight
 from ..motion import Judge, Motion, OnePose, Request, SmoothPiece, require_motion
@@ -341,7 +342,7 @@ TracedLaw: TypeAlias = tuple[TracedMotion, Node]
 """A formula on a program: the traced motion that it asked, and its node."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class LawInPlan:
     """A formula in a plan: its key, the members that it reads, and those it is differentiated through.
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, one_word, unwarned
+from ..frozen import record
 from ..language import ENGLISH, current_language, language, said, translated
 from ..loads import PLAIN_CASE, Acting, ForceElement, Load, Push, Rates, TwoPoint
 from ..motion import Motion, require_motion
@@ -30,7 +31,7 @@ LEAST = 1e-200
 """N or Nm: less than this is no force; numbers next to the smallest there are have few digits."""
 
 
-@dataclass(frozen=True)
+@record
 class PoseForces:
     """All forces of a motion: each contact's force (2, ...) and couple (...), the drives' and the members' thrusts (...).
 
@@ -116,7 +117,7 @@ def system_with_friction(poses: FlatPoses, applied: AppliedLoads) -> System:
     return System(structure, poses, applied.loads, frictions)
 
 
-@dataclass(frozen=True)
+@record
 class Solution:
     """Joint forces u (n, columns) and frictions q (n, frictions) [N]; `locked` where friction leaves no bounded ones (n,)."""
 
@@ -168,7 +169,7 @@ def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
     return [text]
 
 
-@dataclass(frozen=True)
+@record
 class Equilibrium:
     """A system with the equations of its thrusts, and a column for each support that replaces a known drive force.
 
@@ -352,7 +353,7 @@ STILL = 1e-9
 """m or rad a unit of a stroke: slower than this nothing moves."""
 
 
-@dataclass(frozen=True)
+@record
 class Slip:
     """The slip of two bodies in a direction that their joint holds, beyond its drives, on a unit of a stroke.
 
@@ -449,7 +450,7 @@ def disagreeing(poses: FlatPoses, miss: FloatArray, limit: FloatArray | float, s
 # the second. Where it is not held every force is refused in these words, whatever method works it out; places are not.
 
 
-@dataclass(frozen=True)
+@record
 class Looseness:
     """The loose bodies while the drives are locked: their names and a sentence; empty where all are held.
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import pi
 from typing import Any, Protocol, TypeAlias, cast, overload, runtime_checkable
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, ensure, require_type, unwarned
+from ..frozen import record
 from ..language import noted, said, translated
 from ..loads import Acting
 from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
@@ -24,7 +25,7 @@ Place: TypeAlias = tuple[np.intp | int, ...]
 """A pose among those of a motion, or a design among its designs, by its indices."""
 
 
-@dataclass(frozen=True)
+@record
 class PinLoad:
     """The largest force of one joint: its size [N], its direction in the body's own axes [rad], and where it occurs.
 

@@ -8,7 +8,7 @@ its own, along the ground is a quarter turn to the right of it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Unpack
 
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, ensure, fits_shape, known_name, require
+from ..frozen import immutable
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, ForceElement, Load, LoadCase, Loads, situation_of, takes_situation
 from ..loads.point import LinkMass, Support, Weight
@@ -46,7 +47,7 @@ BEYOND = 1e-9
 """A resultant that lies beyond a support by less than this part of their distance lies above it."""
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Standing:
     """How a vehicle stands on its supports; forces in N, shape (...), by the supports' names.
 
@@ -215,7 +216,7 @@ def is_on_frame(plan: Plan, element: ForceElement) -> bool:
 # The balance of the frame.
 
 
-@dataclass(frozen=True, eq=False)
+@immutable
 class Balance:
     """The outer loads of a vehicle without its supports, at the first of them: across the ground [N], about it [Nm], (n,) each.
 

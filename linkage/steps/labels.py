@@ -7,12 +7,11 @@ A label is the points' names joined, matched against the step's own points and n
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
 from ..errors import ensure
-from ..frozen import immutable, refuses_changes
+from ..frozen import immutable, record
 from ..quantities import Operand, Quantity, joined_names, quantity, source_text
 
 
@@ -29,8 +28,7 @@ class Spoken:
         return f"{self.owner}.{own}"
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Slot:
     """A place of a step that a label fills: a length of two points or an angle of three."""
 

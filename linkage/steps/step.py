@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 from types import MappingProxyType
 from typing import ClassVar, NamedTuple, Self, TypeAlias
@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, cited, did_you_mean, ensure, two_of
-from ..frozen import refuses_changes
+from ..frozen import record
 from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, joined_names, label, name_of, quantity
 from ..quantities.quantity import source_text
 from ..units import deg, require_measure
@@ -37,8 +37,7 @@ Position: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
 TURN = 2.0 * pi * (1.0 + 1e-9)
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Bar:
     """Two points at a distance: a link, or a cylinder where the length follows a stroke."""
 

@@ -8,7 +8,6 @@ import os
 import re
 import sys
 from collections.abc import Container, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
 from inspect import getsource
@@ -22,6 +21,7 @@ import numpy as np
 
 from ..disk import check_name, in_words, read, replacing
 from ..errors import DefinitionError, FileError, require
+from ..frozen import record
 from ..mechanism import Mechanism
 from .designs import Batch, Designs, Task
 
@@ -32,7 +32,7 @@ Facts: TypeAlias = Mapping[str, object]
 """What makes a study the same, by name, as JSON holds it."""
 
 
-@dataclass(frozen=True)
+@record
 class Checkpoint:
     """A folder of batches: `designs-START-STOP-CHECK.npy`, an array with a field for each result.
 

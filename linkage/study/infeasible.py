@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 
 from ..errors import LinkageError, StudyError
-from ..frozen import immutable
+from ..frozen import immutable, record
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint
 from ..program import FloatArray
@@ -29,7 +28,7 @@ ALTERNATIVES = 6
 """Conditions that are looked at each for itself."""
 
 
-@dataclass(frozen=True)
+@record
 class Relaxation:
     """A condition that has to give way, by how much [SI], and the sentence that says so; `machine` is the design that it gives."""
 

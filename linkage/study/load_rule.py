@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 
 from ..errors import DefinitionError, cited, known_name, require_type
-from ..frozen import refuses_changes
+from ..frozen import record
 from ..language import noted
 from ..quantities import is_number
 from ..units import require_number
@@ -23,8 +22,7 @@ FACTORS: Mapping[str, str] = MappingProxyType(
 """What a rule's numbers are shares of, in words."""
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class LoadRule:
     """Factors of the load by its limit: `LoadRule("works rule", hydraulic=0.9, tipping=0.7)`. Each is above 0 and not above 1.
 

@@ -6,7 +6,7 @@ import csv
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice, product
 from math import prod
 from operator import itemgetter
@@ -17,7 +17,7 @@ import numpy as np
 
 from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, ensure
-from ..frozen import immutable
+from ..frozen import immutable, record
 from ..mechanism import Mechanism
 from ..motion import Over
 from ..motion.measures import Constraint, FixedNumber, Integral, Leaf, Measure, measure_of, measure_unit
@@ -761,7 +761,7 @@ ROUNDED_TO_NOTHING = 1e-9
 """Of a condition's size: less to spare than this is nothing."""
 
 
-@dataclass(frozen=True)
+@record
 class ResultRow:
     """A number before and after a search [SI], and the worth of more of it: `gain` is a part of the objective, `by` for how much less.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from math import prod
@@ -28,7 +27,7 @@ from ..errors import (
     unfit,
     unknown,
 )
-from ..frozen import immutable
+from ..frozen import immutable, record
 from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion.measures import Constraint, least
@@ -50,7 +49,7 @@ APART = 200.0
 """Times the largest length of a machine: a range that ends so far away, and leaves out today's value, was given in another unit."""
 
 
-@dataclass(frozen=True)
+@record
 class Around:
     """So far up and down from a dimension's present value; of a point `round`, so far in any direction."""
 
@@ -92,7 +91,7 @@ TRIED = 1 << 15
 """Places of the box that are tried at the most for one inside a region."""
 
 
-@dataclass(frozen=True)
+@record
 class Varied:
     """A dimension that varies between two values [SI], in steps where `step` is given; `sign` that of its spelling."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Mapping
-from dataclasses import dataclass
 from math import exp, inf, pi, sqrt
 from types import SimpleNamespace
 from typing import Any, TypeAlias
@@ -11,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError, ensure, one_word, require, require_type, require_whole, unknown, unwarned
-from ..frozen import FrozenDict, immutable, refuses_changes
+from ..frozen import FrozenDict, immutable, record
 from ..mechanism import Mechanism
 from ..motion import NodeRequest, Request, RequestLike, require_motion
 from ..motion.grid import MotionLike
@@ -31,8 +30,7 @@ WITHIN = 0.9973002039367398
 """The share of a normal law within three sigmas."""
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Tolerance:
     """How far a dimension may lie from its value: `Tolerance(0.1 * mm)`.
 
@@ -243,7 +241,7 @@ STEP = 1e-3
 """Of a tolerance: the difference that the gradient of a function of a motion is taken over."""
 
 
-@dataclass(frozen=True)
+@record
 class Effect:
     """The effect of one dimension on a quantity. `linear_low` and `linear_high` are the changes that the gradient tells.
 

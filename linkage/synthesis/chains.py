@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
 from math import pi
@@ -13,6 +12,7 @@ import numpy as np
 
 from ..assembly import chain_parts
 from ..errors import DefinitionError, cited, ensure, is_whole, unwarned
+from ..frozen import record
 from ..mechanism import Mechanism
 from ..mobility import MOST_LINKS, Form, canonical, chain_forms, joint_pairs
 from ..motion import Featured
@@ -69,7 +69,7 @@ def assortment(form: Form) -> tuple[int, ...]:
     return tuple(joints[number] for number in range(2, max(joints) + 1))
 
 
-@dataclass(frozen=True)
+@record
 class PlanarChain(Shown):
     """A kinematic chain: its links are numbered from 1, those with the most joints first; `number` counts those of its link assortment."""
 
@@ -148,7 +148,7 @@ def is_stephenson(form: Form) -> bool:
     return not form[one] >> other & 1
 
 
-@dataclass(frozen=True)
+@record
 class Inversion(Shown):
     """A chain with one of its links as the `frame`."""
 

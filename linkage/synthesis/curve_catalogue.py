@@ -7,13 +7,13 @@ selection of path generating mechanisms from a library, Mech. Mach. Theory 29 (1
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError, StudyError, cited, ensure, require_whole, unwarned
-from ..frozen import immutable
+from ..frozen import immutable, record
 from ..language import said
 from ..mechanism import Mechanism
 from ..motion import Grid
@@ -171,7 +171,7 @@ def curve_kernel(plan: Plan, of: str) -> Kernel:
     return plan.made(("closed curve", of), made)
 
 
-@dataclass(frozen=True)
+@record
 class CurveMeasure:
     """Measures designs: whether each runs its whole turn, and the amplitudes of its curve."""
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from .. import plugins
 from ..errors import DefinitionError, StudyError, ensure, is_class_of, require, require_whole
-from ..frozen import read_only
+from ..frozen import read_only, record
 from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
 from ..mobility import FourBar, grashof
@@ -49,7 +49,7 @@ LEAST_LINK = 1e-9
 # -- how a pin that is driven comes round -----------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@record
 class DrivenPiece:
     """The angles of a driven link at which the rest can be assembled: from `start` to `end` [rad]; all of them where it turns `fully`."""
 
@@ -240,7 +240,7 @@ def exact_synthesis(title: str, found: Sequence[ExactMachine], complex_count: in
 # -- judged ---------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@record
 class Pivoted:
     """A pin that turns about a fixed one, or runs on a straight line: its places (n,), the `centre`, or NaN and a `direction` [rad]."""
 
@@ -267,7 +267,7 @@ class Pivoted:
         return float(np.ptp(abs(self.places - self.centre)))
 
 
-@dataclass(frozen=True)
+@record
 class CouplerTask:
     """The task of a machine beside its pins. It has the coupler point's places (n,), and the directions of its body, the driven angles and
     the follower's zero angle [rad], or None for each of these. It also says whether the points are to be passed in order.

@@ -6,7 +6,6 @@ Source: Morgan, Wampler: Solving a planar four-bar design problem using continua
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations, product
 from typing import Any, TypeAlias
@@ -15,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, StudyError, ensure, require
+from ..frozen import record
 from ..language import said
 from ..numeric.descent import refined, without_repeats
 from ..program import FloatArray
@@ -144,7 +144,7 @@ def both(one: ComplexArray, other: ComplexArray) -> ComplexArray:
 # -- continuation -------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@record
 class Paths:
     """A system that changes with time from 0 to 1, on which all solutions are followed together; `patch` (2, 6) norms their coordinates."""
 

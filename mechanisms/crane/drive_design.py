@@ -6,7 +6,7 @@ Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import pi
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -15,7 +15,7 @@ import numpy as np
 
 from linkage import DefinitionError, Mechanism, StudyError, at, deg, integral, kN, least, mm, most, optimise, ref, x, y
 from linkage.errors import cited, ensure, one_word
-from linkage.frozen import immutable
+from linkage.frozen import immutable, record
 from linkage.motion.measures import Measure
 from linkage.numeric.quadrature import quadrature
 from linkage.program import FloatArray
@@ -262,7 +262,7 @@ STEP = 1e-6
 LEAST_TRANSMISSION = 25 * deg
 
 
-@dataclass(frozen=True)
+@record
 class ArmRules:
     """The conditions of an arm drive beside its moments, and the reading of the source's lost signs.
 

@@ -6,13 +6,13 @@ Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 
 from linkage import Column, DefinitionError, Featured, Motion, Verdict, least, most, ratio, ref
 from linkage.errors import ensure
+from linkage.frozen import record
 from linkage.language import noted, said, translated
 from linkage.motion import Answer, Request
 from linkage.quantities import Quantity
@@ -24,7 +24,7 @@ SHORT = 1e-6
 """Of the greatest moment asked for: what is missing by less is met to rounding."""
 
 
-@dataclass(frozen=True)
+@record
 class Movement:
     """One movement of a drive: its name, the moment it gives and the one asked of it [N m], neither of them negative.
 
@@ -76,7 +76,7 @@ def featured_drive(joint: str) -> Featured:
     return Featured(over[0], (), {name: (0.0, said("too weak"), "below") for name in over})
 
 
-@dataclass(frozen=True)
+@record
 class WorstMovement:
     """The places of a movement's least and greatest surplus of moment [N m], and the greatest required moment."""
 

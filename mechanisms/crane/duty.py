@@ -7,7 +7,6 @@ synthesis (2.5) to (2.18), and (2.19) to (2.27), (2.36), (2.39) to (2.43).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from math import pi
 
@@ -18,6 +17,7 @@ from hydraulics import CylinderSize
 from hydraulics.inputs import efficient, in_pascals, not_negative
 from linkage import DefinitionError, Mechanism, MPa, deg, drive_force, kN, mm
 from linkage.errors import ensure
+from linkage.frozen import record
 from linkage.numeric.line import Index, highest
 from linkage.plan import Mask
 from linkage.program import FloatArray
@@ -37,7 +37,7 @@ LONGEST_REACH = 40.0
 """m; a longer one was given in millimetres."""
 
 
-@dataclass(frozen=True)
+@record
 class Duty:
     """The duty of a forwarder's crane; by default the source's example.
 
@@ -210,7 +210,7 @@ def clipped(value: Operand, low: Operand | None, high: Operand | None = None) ->
     return found if low is None else Function("maximum", found, quantity(low))
 
 
-@dataclass(frozen=True)
+@record
 class DriveDuty:
     """The lengths, angles and moments that boom drive and arm drive are made for; by default those of the source's examples 2 and 3.
 
@@ -349,7 +349,7 @@ SIZES_MM = ((63, 36), (70, 40), (80, 45), (90, 50), (100, 56), (110, 63), (125, 
 """Bores and rods of the source's examples."""
 
 
-@dataclass(frozen=True)
+@record
 class DriveCylinders:
     """The cylinders that a drive is chosen from.
 

@@ -11,7 +11,6 @@ stems of 100 to 550 mm, 4 bores from 50 mm, 10 strokes from 100 mm
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import product
 from math import inf
 from typing import Any, ClassVar, TypeAlias
@@ -22,7 +21,7 @@ from hydraulics import CylinderSize, reserve
 from hydraulics.inputs import efficient, in_pascals, one_number, positive
 from linkage import DefinitionError, MPa, Stroke, StudyError, at, deg, least, mm, most, optimise, ratio, ref, x, y
 from linkage.errors import ensure, is_listed, one_word, require, require_type
-from linkage.frozen import refuses_changes
+from linkage.frozen import record
 from linkage.motion import Request
 from linkage.program import FloatArray
 from linkage.quantities import Quantity, quantity
@@ -60,8 +59,7 @@ def assumed_moment(D: Quantity, arm: Quantity) -> Quantity:
     return (6000.0 + 40000.0 * D**2) * arm
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Duty:
     """The stems, the wrap angles and the possible drives of the lever; every number as in `Grapple`.
 
@@ -222,8 +220,7 @@ ROOM = 2.0 * mm
 """How far beyond the OC that the grid shows the optimum is sought."""
 
 
-@refuses_changes
-@dataclass(frozen=True)
+@record
 class Combination:
     """A cylinder, a stroke and a place of E, and for which OC all conditions are kept.
 

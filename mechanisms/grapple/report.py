@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from hydraulics import LiftCircuit
 from linkage import Column, DefinitionError, Force, Motion, Verdict, least, most, pin_force, ratio, ref
 from linkage.errors import ensure, require_whole
+from linkage.frozen import record
 from linkage.language import said
 from linkage.motion import Answer, MotionFunction, require_motion
 from linkage.program import FloatArray
@@ -105,7 +105,7 @@ def require_placed(motion: Motion) -> Motion:
     return motion
 
 
-@dataclass(frozen=True)
+@record
 class GrappleState:
     """The grip at the poses of a motion: arrays of its shape D [m], H [m], M_g and M_1 [N m] of one lever.
 

@@ -6,7 +6,7 @@ The line is charged as published, for a reaction, and at the most; all over the 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -14,6 +14,7 @@ import numpy as np
 from hydraulics import CylinderSize, Gas, adiabatic, isothermal, standard_bores
 from linkage import DefinitionError, Motion, Verdict, least
 from linkage.errors import ensure
+from linkage.frozen import record
 from linkage.language import noted, said, translated, with_and
 from linkage.motion import Judge, MotionFunction, below_zero, last_holding, require_motion
 from linkage.motion.grid import recalled
@@ -34,7 +35,7 @@ HEADERS: Mapping[int, Mapping[str, float]] = MappingProxyType({
 """Mass and charge pressure as published; the geometry is illustrative, such that criterion 2 gives these pressures."""
 
 
-@dataclass(frozen=True)
+@record
 class Way:
     """How hang-up is looked at.
 

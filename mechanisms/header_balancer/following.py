@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +10,7 @@ import numpy as np
 from hydraulics import Cylinder, FloatCircuit, pressure
 from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, driving_force, most, ratio, reaction, ref
 from linkage.errors import ensure, require_whole
+from linkage.frozen import record
 from linkage.language import noted
 from linkage.loads import SENSES, Acting, PinFriction, Support
 from linkage.loads.element import Formulas
@@ -129,7 +129,7 @@ def dry_frictions(motion: Motion) -> list[str]:
     return [name for name, each in motion.plan.of_kind(ForceElement).items() if each.frictions(motion)]
 
 
-@dataclass(frozen=True)
+@record
 class HeaderState:
     """Values at a motion's poses: arm, pressures, reactions; every array of the motion's shape, cached."""
 

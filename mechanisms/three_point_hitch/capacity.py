@@ -6,7 +6,7 @@ Figure 2, the zones of capacity and tilt over the admissible settings, and the u
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from hydraulics import LiftCircuit
 from hydraulics.cylinders import found_in
 from linkage import Column, Force, ForceElement, Mechanism, Motion, angle, least, most
 from linkage.errors import ensure, unwarned
+from linkage.frozen import record
 from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
 from linkage.mechanism import require_mechanism
@@ -167,7 +168,7 @@ CHANGES = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
+@record
 class Weakest:
     """The weakest point of the capacity curve of one design.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -13,6 +12,7 @@ from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
 from linkage import LEFT, RIGHT, Column, Dimension, Dyad, Featured, Ground, Mechanism, Motion, OnLink, Outline, Stroke, angle, ratio, y
 from linkage.errors import DefinitionError
+from linkage.frozen import record
 from linkage.language import noted, said
 from linkage.loads import Weight
 from linkage.loads.element import Formulas
@@ -155,7 +155,7 @@ class HitchCategory1(ThreePointHitch):
     )
 
 
-@dataclass(frozen=True)
+@record
 class Category:
     """The dimensions of an ISO 730 category, and a machine of such proportions, whose other dimensions are illustrative.
 

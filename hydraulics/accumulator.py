@@ -515,7 +515,8 @@ class AccumulatorBlock:
         says = said("{fluid} of fluid left at the lowest pressure, {low} gauge", fluid=show(held, "cm3", 4), low=text(low))
         remedy = "" if held > 0.0 else said("; lower a charge, or charge the line higher")
         found.append(Verdict("exhausted", held > 0.0, f"{says}{remedy}."))
-        says = said("highest pressure {high}, allowed {allowed} (gauge)", high=text(high), allowed=text(limit))
+        highest = text(high, missed=None if high <= limit else limit)
+        says = said("highest pressure {high}, allowed {allowed} (gauge)", high=highest, allowed=text(limit))
         remedy = "" if high <= limit else said("; set the relief valve lower or take a stronger accumulator")
         return [*found, Verdict("allowed pressure", high <= limit, f"{says}{remedy}.")]
 

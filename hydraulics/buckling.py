@@ -215,7 +215,7 @@ class Buckling:
         given = {
             "thrust": show(thrust, "kN", 4), "rod": show(self.rod, "mm", 4), "length": show(length, "mm", 4),
             "mounting": translated(self.mounting), "where": f" {where}" if where else "", "limit": show(limit, "kN", 4),
-            "safety": shown_number(limit / thrust, "", 3), "least": self.safety,
+            "safety": shown_number(limit / thrust, "", 3, None if ok else self.safety), "least": self.safety,
         }  # fmt: skip
         says = said(
             "{thrust} on a {rod} rod {length} long ({mounting}){where}, buckling at {limit}: safety {safety}, at least {least:g}",

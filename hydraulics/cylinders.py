@@ -1070,7 +1070,8 @@ class Cylinder(BarrelAndRod, Ram):
         answer = over_time(judge, most(abs(rate_request(self.name))) <= limit) if limit < np.inf else None
         if answer is None:
             return []
-        shown = {"name": self.name, "limit": show(limit, "mm/s", 4), "speed": show(answer.value, "mm/s", 4), "where": answer.place}
+        speed = show(answer.value, "mm/s", 4, None if answer.ok else limit)
+        shown = {"name": self.name, "limit": show(limit, "mm/s", 4), "speed": speed, "where": answer.place}
         if answer.ok is False:
             text = said("{name} moves with {speed}, {where}; its seals allow {limit}. Run slower there, or take other seals.", **shown)
         elif answer.value <= TO_ROUNDING * limit:

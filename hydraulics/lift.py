@@ -24,7 +24,7 @@ from linkage.motion.measures import Condition, at, least, most
 from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
 from linkage.quantities.member import in_class
 from linkage.statics import LawRequest, elements_of, is_among, same
-from linkage.units import UNITS, litre, show
+from linkage.units import UNITS, litre, show, shown_number
 from linkage.verdict import Remark, Verdict
 
 from .cylinders import (
@@ -107,7 +107,7 @@ class PumpLine(LiftLine):
             found[f"lifting{name}"] = PageWords(noted("the least reserve is {value}, {place}"), fails={">=": lacks})
             holds = noted("with the pump off it holds up to {value}, {place}: above {limit}; take a larger size")
             found[f"holding{name}"] = PageWords(
-                noted("with the pump off it holds up to {value}, {place}: not above {limit}"), fails={"<=": holds}, is_need=True
+                noted("with the pump off it holds up to {value}, {place}: not above {limit}"), fails={"<=": holds}
             )
             if each.ram.side == "both":  # which way the load drives it back hangs on the design
                 found[f"lowering{name}"] = PageWords("", is_followed=False)
@@ -115,7 +115,7 @@ class PumpLine(LiftLine):
                 alone = least(going_back_request(each.ram.name, Acting(), self.name, ways[0], tells="load"))
                 found[f"lowering{name}"] = PageWords(noted("the load makes at least {value} in the working side, {place}"), alone)
             else:
-                found[f"lowering{name}"] = PageWords("", is_need=True)
+                found[f"lowering{name}"] = PageWords("")
         return found
 
     def load_limits(self, judge: Judge) -> Mapping[str, Condition]:
@@ -433,13 +433,9 @@ class LiftingCylinder:
         pumped = self.ram.side == "both" and self.circuit.has_both_sides(self.judge.plan.members)
         return not valved and not pumped and not self.goes_back_by_another
 
-    def show(self, pressure: Array | float) -> str:
-        """Return a pressure in the unit of the sentences."""
-        return show(float(pressure), self.unit, 4)
-
-    def enough(self, answer: Answer) -> str:
-        """Return a pressure that is needed or stands there, rounded up: one that is set to what is read holds."""
-        return show_enough(float(answer.value), self.unit)
+    def show(self, pressure: Array | float, missed: float | None = None) -> str:
+        """Return a pressure in the unit of the sentences, with more digits where it would read as a limit that is `missed`."""
+        return show(float(pressure), self.unit, 4, missed)
 
     # -- lifting -------------------------------------------------------------------------------------------
 
@@ -464,7 +460,8 @@ class LiftingCylinder:
             driven = with_and(self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0))) or said("in places")
             by = {"where": driven, "remedy": self.remedy_both()}
             free = said("; the load drives {where}, there it is not limited by this cylinder{remedy}", **by)
-        says = said("at {pump} the least reserve is {least:.3f}, {where}", pump=pump, least=found.value, where=found.place)
+        least_text = shown_number(float(found.value), "", ".3f", None if found.ok else 1.0)
+        says = said("at {pump} the least reserve is {least}, {where}", pump=pump, least=least_text, where=found.place)
         if found.ok:
             return Verdict("lifting", True, f"{says}{free}.", answer=found)
         short = self.parts(found, lambda reserve: np.nan_to_num(reserve, nan=2.0) - 1.0)
@@ -494,7 +491,7 @@ class LiftingCylinder:
         found = self.judge.answer(most(pressure_request(*self.request_arguments, is_needed=True)))
         if found.unbounded or not np.isfinite(found.value):
             return said("No pressure and no bore lifts there; keep away from that pose.")
-        needed = self.enough(found)
+        needed = show_enough(float(found.value), self.unit)
         if self.circuit.relieves(self.judge.plan) and found.value > float(self.circuit.relief_pressure(self.judge.motion)):
             needed = said("{pressure}, at its relief valve as well", pressure=needed)
         if len(self.circuit.rams(self.judge.motion)) > 1:
@@ -554,8 +551,12 @@ class LiftingCylinder:
             return Verdict("holding", False, text, answer=loose)
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
         words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []
+
+        def stood(each: Answer) -> str:
+            return self.show(each.value, None if each.ok else limit)
+
         parts = [
-            said("the {side} holds up to {pressure}, {where}", side=side, pressure=self.enough(each), where=each.place)
+            said("the {side} holds up to {pressure}, {where}", side=side, pressure=stood(each), where=each.place)
             for each, side in zip(found, words, strict=True)
             if each.value > TO_ROUNDING * limit
         ]
@@ -586,7 +587,7 @@ class LiftingCylinder:
             return said("no standard size is large enough, keep away from that pose") if alone else size
         sizes, answers = found
         holds = max(answers, key=lambda each: float(each.value))
-        return said("{remedy}: with {size} it is up to {pressure}", remedy=size, size=size_words(sizes), pressure=self.enough(holds))
+        return said("{remedy}: with {size} it is up to {pressure}", remedy=size, size=size_words(sizes), pressure=self.show(holds.value))
 
     def going_back(self, resistance: float = 0.0) -> Verdict:
         """Return whether it goes back by itself against the resistance of the returning oil; if not, the pressure on the other side.
@@ -612,7 +613,7 @@ class LiftingCylinder:
         if is_pushed and not push.unbounded:
             (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
         by = {"where": where, "against": against, "place": push.place, "pose": push.place}
-        by["push"] = self.enough(push)
+        by["push"] = show_enough(float(push.value), self.unit)
         if push.unbounded:
             text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
         elif self.ram.is_single_acting:
@@ -674,6 +675,6 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
         return Verdict("oil", True, said("{says}, {time} at {flow}.", says=says, time=time, flow=given))
     text = said(
         "the cylinders take {asked}, {where}; the pump gives {flow}. Run slower there, or take a larger pump.",
-        asked=show(asked.value, "l/min", 4), where=asked.place, flow=given,
+        asked=show(asked.value, "l/min", 4, rate), where=asked.place, flow=given,
     )  # fmt: skip
     return Verdict("oil", False, text, answer=asked)

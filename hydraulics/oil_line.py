@@ -844,7 +844,7 @@ class OilLine(PumpLine, GasLine):
             return []
         text = said(
             "its pressure comes to {high} {where}, and its relief valve opens at {limit}.",
-            high=show(high.value, "bar", 4), where=high.where, limit=show(limit, "bar", 4),
+            high=show(high.value, "bar", 4, limit), where=high.where, limit=show(limit, "bar", 4),
         )  # fmt: skip
         return [Verdict("line", False, text, answer=high)]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias, TypeVar
 
@@ -10,7 +11,7 @@ from linkage.language import said
 from linkage.loads import ForceElement
 from linkage.motion import Answer, Judge, Question
 from linkage.motion.answer import OF_VALUE
-from linkage.units import rounded_up, show
+from linkage.units import decimals, factor, show, shown_in
 
 Sizes: TypeAlias = Mapping[str, float]
 """Sizes of a cylinder by their names [m], such as its bore."""
@@ -74,6 +75,14 @@ def size_words(sizes: Sizes) -> str:
     return said("a rod of {rod}", **shown) if "rod" in shown else said("a bore of {bore}", **shown)
 
 
+EXACT = 1e-7
+"""Of the last digit that is shown: what is above it by less is that to rounding."""
+
+
 def show_enough(value: float, unit: str, digits: int | str = 4) -> str:
-    """Return a needed value as text, rounded up, so that the number read is enough; `digits` as in `show`."""
-    return show(rounded_up(value, unit, digits), unit, digits)
+    """Return a need that a remedy tells as text, rounded up, so that the number read is enough; `digits` as in `show`."""
+    if 0.0 < value < math.inf:
+        own = factor(shown_in(unit))
+        last = -decimals(int(digits[1:-1]), unit) if isinstance(digits, str) else math.floor(math.log10(value / own)) + 1 - digits
+        value = math.ceil(value / (own * 10.0**last) - EXACT) * 10.0**last * own
+    return show(value, unit, digits)

@@ -30,6 +30,7 @@ from linkage.verdict import Verdict
 from .cylinders import PISTON, Circuit, OnLines, Ram, carries_loads, circuits_among, number_request
 from .inputs import Array, follows, in_pascals, number_set, one_design, positive
 from .lifting_line import LiftLine
+from .remedy import show_enough
 from .standing import common_area, common_sum, moves_in
 
 USUAL_SETTING = 1.3
@@ -369,14 +370,14 @@ class HoldingValve(OnLines, HasVerdicts):
         if not found.value > 0.0:
             text = said("the load presses nowhere on the side of {line}: the valve holds nothing.", line=line.name)
             return Verdict("setting", True, text, answer=found)
-        pressure, share = show(found.value, "bar", 4), setting / float(found.value)
+        pressure, share = show(found.value, "bar", 4, None if found.value < setting else setting), setting / float(found.value)
         by: dict[str, object] = {"setting": show(setting, "bar", 4), "share": share}
         says: dict[str, object] = {"pressure": pressure, "line": line.name, "pilot": pilot.name, "where": found.place}
         if np.any(self.pilot_at_rest(judge.motion)):
             by["says"] = said("load and the pressure in {pilot} act on the valve as up to {pressure} in {line}, {where}", **says)
         else:
             by["says"] = said("the load makes up to {pressure} in {line}, {where}", **says)
-        by["advised"] = show(USUAL_SETTING * float(found.value), "bar", 4)
+        by["advised"] = show_enough(USUAL_SETTING * float(found.value), "bar")
         text = said("{says}; the setting of {setting} is {share:.2f} times that.", **by)
         if found.value >= setting:
             text = said(
@@ -404,13 +405,15 @@ class HoldingValve(OnLines, HasVerdicts):
         _, pilot = self.lines(members)
         found, pump = judge.answer(most(valve_request("pilot_pressure", self.name, Acting()))), self.pumped(members)
         line = judge.answer(most(valve_request("line_pressure", self.name, Acting())))
-        says = said(
-            "lowering takes up to {pilot_pressure} in {pilot}, {where}, with up to {line_pressure} in the side that empties",
-            pilot_pressure=show(found.value, "bar", 4), pilot=pilot.name, where=found.place, line_pressure=show(line.value, "bar", 4),
-        )  # fmt: skip
         assert pump is not None
         supply = one_design(pump.supply(judge.motion))
-        if found.value <= supply * (1.0 + 1e-9):
+        is_enough = bool(found.value <= supply * (1.0 + 1e-9))
+        takes = show(found.value, "bar", 4, None if is_enough else supply)
+        says = said(
+            "lowering takes up to {pilot_pressure} in {pilot}, {where}, with up to {line_pressure} in the side that empties",
+            pilot_pressure=takes, pilot=pilot.name, where=found.place, line_pressure=show(line.value, "bar", 4),
+        )  # fmt: skip
+        if is_enough:
             return Verdict("pilot", True, said("{says}, of the pump's {supply}.", says=says, supply=show(supply, "bar", 4)), answer=found)
         text = said(
             "{says}: more than the pump's {supply}. Take a valve of a larger ratio, or set it lower if the load allows it.",

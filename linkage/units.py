@@ -392,10 +392,11 @@ def decimals(digits: int, unit: str) -> int:
     return max(0, math.ceil(digits + math.log10(coarser) - _CLOSE)) if coarser != 1.0 else digits
 
 
-def shown_number(value: float, unit: str, digits: int | str = 6) -> str:
-    """Return an SI value as a number alone, without its unit, in the unit that it is shown in.
+def shown_number(value: float, unit: str, digits: int | str = 6, missed: float | None = None) -> str:
+    """Return an SI value as a number alone, without its unit, in the unit that it is shown in, rounded to the nearest.
 
-    `digits`: how many count, or a format, ".1f", "+.0f", "z.0f", ".4g", whose decimals hold for `unit` itself.
+    `digits`: how many count, or a format, ".1f", "+.0f", "z.0f", ".4g", whose decimals hold for `unit` itself. There are as many more as
+    tell it from a limit that is `missed`: "170.02" where the limit is 170.
     """
     unit_or_none(unit, where="")
     given: Any = value
@@ -405,32 +406,20 @@ def shown_number(value: float, unit: str, digits: int | str = 6) -> str:
         raise DefinitionError(f"show({cited(value)}, {unit!r}, {cited(digits)}): a number and its digits are expected.")
     flags, count, kind = form[1], int(form[2]), form[3]
     shown = value / factor(shown_in(unit))
-    if kind == "f":
-        return f"{shown:{flags}.{decimals(count, unit)}f}"
-    text = f"{shown:{flags}.{count}g}"
+    limit, least = "" if missed in (None, value) else shown_number(missed, unit, digits), decimals(count, unit) if kind == "f" else count
+    found = (f"{shown:{flags}.{more}{kind}}" for more in range(least, least + 20))
+    text = next(each for each in found if not limit or float(each) != float(limit))
     return f"{shown:{flags}.0f}" if "e+" in text and abs(shown) < 1e9 else text
 
 
-def show(value: float, unit: str, digits: int | str = 6) -> str:
+def show(value: float, unit: str, digits: int | str = 6, missed: float | None = None) -> str:
     """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`; as it is where the unit is "".
 
-    `digits`: how many count, or a format such as ".1f"; in a chosen system it is in the unit of that, as fine as here.
+    `digits`: how many count, or a format such as ".1f"; in a chosen system it is in the unit of that, as fine as here. A value has more of
+    them where it would read as a limit that it has `missed`.
     """
-    text = shown_number(value, unit, digits)
+    text = shown_number(value, unit, digits, missed)
     return f"{text} {unit_sign(unit)}" if unit else text
-
-
-EXACT = 1e-7
-"""Of the last digit that is shown: what is above it by less is that to rounding."""
-
-
-def rounded_up(value: float, unit: str, digits: int | str = 4) -> float:
-    """Return a needed value [SI] that is shown with so many `digits` and is enough."""
-    if not 0.0 < value < math.inf:
-        return value
-    own = factor(shown_in(unit))
-    last = -decimals(int(digits[1:-1]), unit) if isinstance(digits, str) else math.floor(math.log10(value / own)) + 1 - digits
-    return math.ceil(value / (own * 10.0**last) - EXACT) * 10.0**last * own
 
 
 declare_public(globals())

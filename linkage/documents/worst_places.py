@@ -17,7 +17,7 @@ from ..motion.measures import Constraint, least, measure_of, most
 from ..pictures.page_judge import share_used
 from ..pictures.shown_values import limit_of
 from ..reports import is_column
-from ..units import display_unit, rounded_up, show, shown_number
+from ..units import display_unit, show, shown_number
 from ..verdict import Verdict
 from .content import Mark, Section, TableBlock
 from .run import CLOSE, ReportSubject, largest
@@ -116,7 +116,8 @@ def worst_places(subject: ReportSubject, answers: Sequence[JudgedRow]) -> Iterat
         if each.unbounded:
             value = each.amount
         elif column is not None or kind or (isinstance(quantity, Request) and not isinstance(quantity, MotionFunction)):
-            value = f"{show(float(each.value), display_unit(kind, 'mm') if column is None else column.unit, 4)}{sign}"
+            missed = float(each.limit) if ok is False else None
+            value = f"{show(float(each.value), display_unit(kind, 'mm') if column is None else column.unit, 4, missed)}{sign}"
         rows.append((rule, verdict_mark(ok), value, share, each.situation, places_text(each.strokes, each.units)))
     heads = (said("rule"), said("result"), said("value"), said("limit used"), said("situation"), said("strokes"))
     if rows:
@@ -130,6 +131,4 @@ def rule_row(subject: ReportSubject, verdict: Verdict, answer: Answer) -> Judged
     if kind == "number" and words.measure is not None:
         told = float(subject.judge.answer(words.measure).value)
         answer = replace(answer, value=float(shown_number(told, "", 3)))  # as its sentence says it
-    if words.is_need:
-        answer = replace(answer, value=rounded_up(float(answer.value), display_unit(kind, "mm")))
     return JudgedRow(verdict.heading, verdict.ok, answer, of_limit, sign=sign)

@@ -49,7 +49,7 @@ NONE_LOST = LostPlaces()
 
 PerDesign: TypeAlias = Any
 """What one design has, of a batch an array over its designs."""
-PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over", "time", "leg", "used")
+PER_DESIGN = ("value", "ok", "status", "case", "direction", "drive", "side", "over", "time", "leg", "limit", "used")
 """What each design of a batch has an answer of its own."""
 
 
@@ -91,6 +91,8 @@ class Answer:
         Which leg of a path it is on, from 0; -1 of a box and of poses.
     turned : str
         Of an integral over an angle what stands behind its unit: "rad", or "rad2" of an angle's; "" of a moment's, which is a work.
+    limit : float or array
+        The limit of the condition that counts [SI], NaN where there is none.
     used : float or array
         How far the limit of a condition is used: 1.0 where it is met exactly, infinite where nothing bounds it, 0.0 where there is none.
     """
@@ -118,6 +120,7 @@ class Answer:
     """What has to be named, as there are several: "case", "direction", "drive", "side", "over"."""
     leg: PerDesign = -1
     turned: str = ""
+    limit: PerDesign = nan
     used: PerDesign = 0.0
 
     def __repr__(self) -> str:

@@ -174,11 +174,11 @@ class Candidate:
             return max(value / limit, 0.0)
         return limit / value if value * limit > 0.0 else np.inf
 
-    def counts_before(self, other: Candidate, plan: Plan) -> bool:
-        """Return whether it is worse: by the margin from the same limit of the same kind, else by how far each one's own limit is used."""
-        one, two = ((measures_of(plan, each.constraint), getattr(each.constraint, "symbol", ""), each.limit) for each in (self, other))
-        is_same = self.constraint is other.constraint or one == two
-        return bool(self.margin < other.margin if is_same else self.used > other.used * (1.0 + TIE))
+    def is_worse(self, other: Candidate, are_alike: bool) -> bool:
+        """Return whether it counts before another one: by its margin where both are of one kind, else by how far its own limit is used."""
+        if are_alike or self.constraint is other.constraint:
+            return bool(self.margin < other.margin)
+        return self.used > other.used * (1.0 + TIE)
 
     def of_design(self, place: tuple[int, ...], shape: tuple[int, ...]) -> Candidate:
         """Return that of one design of a batch of some shape, by its place in it."""
@@ -899,7 +899,9 @@ class Judge:
             for (place, each), own_lost in zip(found, losses, strict=True)
         )
         known = [k for k, margin in enumerate(margins) if not np.isnan(margin)]
-        least = reduce(lambda a, b: b if candidates[b].counts_before(candidates[a], self.plan) else a, known or [0])
+        constraints = dict.fromkeys(each.constraint for each in candidates)
+        are_alike = len(constraints) == 1 or len({measures_of(self.plan, each) for each in constraints}) == 1
+        least = reduce(lambda a, b: b if candidates[b].is_worse(candidates[a], are_alike) else a, known or [0])
         worst, value, strokes, kept = candidates[least], np.nan, dict[str, float](), False
         place = found[least][0]
         if known and np.isfinite(margins[least]):  # of a tie the place of the first: `Over`, case, extending before retracting
@@ -931,7 +933,8 @@ class Judge:
             question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
             place.over.name, lost, float(worst.unlimited), outside, place.width if worst.seen is not None else {}, count, units,
             measures_of(self.plan, worst.constraint), float(worst.time) if known else np.nan, named,
-            int(worst.leg) if known else -1, turned_by(place, question), 0.0 if is_bare or not known else worst.used,
+            int(worst.leg) if known else -1, turned_by(place, question), float(worst.limit),
+            0.0 if is_bare or not known else worst.used,
         )  # fmt: skip
 
     def reached_by(self, design: tuple[int, ...]) -> Answer:

@@ -18,7 +18,7 @@ from ..language import heading_of, said
 from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
 from ..plan import Mask, Plan, name_or_pins, opening
 from ..quantities import Member
-from ..units import deg, display_unit, rounded_up, show
+from ..units import deg, display_unit, show
 from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
@@ -49,15 +49,13 @@ class PageWords:
     `fails` says it where it is not, by the sign of the condition that is missed; {force}, {much} or {missing} is by how much.
 
     `measure` is the value where it is not the condition's own, `share` how much of the limit is used where that is not value over limit.
-    `is_need` where it is what something has to have, which is rounded up. `is_followed` is False where a changed design may ask something
-    else, so that the page keeps the delivered sentence and says so.
+    `is_followed` is False where a changed design may ask something else, so that the page keeps the delivered sentence and says so.
     """
 
     text: str
     measure: Measure | None = None
     share: Measure | None = None
     fails: Mapping[str, str] = field(default_factory=dict)
-    is_need: bool = False
     is_followed: bool = True
 
 
@@ -538,20 +536,18 @@ def pose_sentence(motion: Motion) -> str:
     at_pose = Judge(plan, designs, [over_pose(motion, cases) for cases in occurring])
     found, unknown, faults = dict[str, Answer](), list[str](), list[str]()
     with unwarned():
-        for rule, (member, own, condition) in rules_of(at_pose).items():
+        for rule, (*_, condition) in rules_of(at_pose).items():
             heading = heading_of(rule)
             try:
-                found[heading] = answer = at_pose.answer(condition)
-                words = speakers(plan, HasVerdicts)[member].page_words(at_pose).get(own) if answer.ok is False else None
-                if words is not None and words.is_need:
-                    found[heading] = replace(answer, value=rounded_up(float(answer.value), display_unit(answer.measures, "mm")))
+                found[heading] = at_pose.answer(condition)
             except LinkageError:
                 unknown.append(heading)
     if not found and not unknown:
         return ""
     for rule, each in found.items():
         if each.ok is False:
-            value = show(float(each.value), display_unit(each.measures, "mm"), 4) if np.isfinite(each.value) else said("no value")
+            told = show(float(each.value), display_unit(each.measures, "mm"), 4, float(each.limit))
+            value = told if np.isfinite(each.value) else said("no value")
             case = said("own loads") if each.case == PLAIN_CASE else each.case
             faults.append(f"{rule} {value} ({case})" if each.case and "case" in each.named else f"{rule} {value}")
     if near and not faults and not unknown:

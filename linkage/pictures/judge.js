@@ -55,7 +55,7 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
   };
   const valueOf = (piece, { score, u }) => (u === null ? NaN : piece.reciprocal ? (score > 0 ? 1 / score : NaN) : piece.stays ? max(score, 0) : piece.sense * score);
   /* How far a limit is used, 1 where it is met exactly; of a limit 0 nothing where it is kept, else infinite, as without any bound. */
-  const usedOf = (value, limit, symbol, margin) => (!limit || symbol === "==" ? (margin < 0 ? Infinity : 0) : (symbol === "<=") === limit > 0 ? max(value / limit, 0) : value / limit > 0 ? limit / value : Infinity);
+  const usedOf = (value, limit, symbol, fails) => (!limit || symbol === "==" ? (fails ? Infinity : 0) : (symbol === "<=") === limit > 0 ? max(value / limit, 0) : value / limit > 0 ? limit / value : Infinity);
   const used = (each) => (typeof each === "number" ? [] : Array.isArray(each) ? [...used(each[1]), ...used(each[2])] : [each.leaf]);
   /* What is decided of a question over some overs, by the worst of its pieces; what ties is told of the first. Where measures count as
      `whole`, those pieces count that no other one beats in the same situation. */
@@ -72,15 +72,14 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
         const a = measure(left, combo), b = measure(right, combo), size = max(isNumber(a) ? abs(a) : 0, isNumber(b) ? abs(b) : 0), close = MET * size;
         const apart = symbol === ">=" ? a - b : symbol === "<=" ? b - a : 1e3 * close - abs(a - b);
         const first = pieces.findIndex((each, k) => !leaves[own[k]].at), chief = max(first, 0), sum = (name) => max(...parts.map((each) => each[name]));
-        const margin = apart < 0 && apart >= -close ? 0 : apart;
-        found.push({ value: a, limit: b, symbol, c, size, margin, used: usedOf(a, b, symbol, margin), over: o, leaf: own[chief], piece: combo[own[chief]], at: pieces[chief], u: first < 0 ? null : parts[first].u, lawless: sum("lawless"), unlimited: sum("unlimited"), unknown: sum("unknown") });
+        found.push({ value: a, limit: b, symbol, c, size, margin: apart < 0 && apart >= -close ? 0 : apart, used: usedOf(a, b, symbol, apart < -close), over: o, leaf: own[chief], piece: combo[own[chief]], at: pieces[chief], u: first < 0 ? null : parts[first].u, lawless: sum("lawless"), unlimited: sum("unlimited"), unknown: sum("unknown") });
       }
     }
     const known = found.filter((each) => !Number.isNaN(each.margin)), lawless = found.some((each) => each.lawless && !overs[each.over].lost);
     if (found.some((each) => each.unknown)) return { ok: null, unknown: true };
     const gone = found.some((each) => lost && lost[each.over].share && !overs[each.over].lost);
     if (!known.length) return { ok: lawless || gone || found.some((each) => each.lawless) ? false : null, kept: lawless ? false : null, value: NaN };
-    const kind = ({ c, symbol, limit }) => `${constraints[c].unit?.unit} ${symbol} ${limit}`, least = known.reduce((a, b) => ((a.c === b.c || kind(a) === kind(b) ? b.margin < a.margin : b.used > a.used * (1 + TIE)) ? b : a));
+    const areAlike = new Set(constraints.map((each) => each.unit?.unit)).size === 1, least = known.reduce((a, b) => ((areAlike || a.c === b.c ? b.margin < a.margin : b.used > a.used * (1 + TIE)) ? b : a));
     const worst = known.find((each) => each.c === least.c && each.margin <= least.margin + TIE * least.size) ?? least;
     const kept = worst.margin >= 0 && !lawless, several = (name) => new Set(found.map((each) => (each.at && each.at[name]) || "")).size > 1;
     /* Where it stands in words, of a place of one of its pieces. */

@@ -222,7 +222,6 @@ class LiveQuestions:
             told |= {"says": words.measure.tree(placed), "saysUnit": said if said["unit"] else said | {"figures": 3}}
         if words.share is not None:
             told["share"] = words.share.tree(placed)
-        told |= {"need": 1} if words.is_need else {}
         return told | {
             "rule": typeset(rule),
             "ru": typeset(russian),

@@ -30,25 +30,27 @@ function situationText(each) {
   if (each.strokes) words.push(say("at {place}", { place: placeText(each.strokes) }));
   return words.join(", ");
 }
-/* Four figures, rounded up of what is needed; of a number without a unit no more than three decimals, as in Python. */
-const size = (value, unit, need) => (isNumber(value) ? shown(unit.unit ? (need && value > 0 ? enough(value, unit) : value) : round(1e3 * value) / 1e3, unit, unit.figures ?? 4) : say("without bounds"));
-const enough = (value, { factor }, last = factor * 10 ** (floor(log10(value / factor)) - 3)) => ceil(value / last - 1e-7) * last;
+/* Four figures, and as many more as tell it from a limit that is missed; of a number without a unit no more than three decimals, as in Python. */
+const size = (value, unit, missed = value) => {
+  const figures = unit.figures ?? 4, told = (each, more = figures) => shown(unit.unit || more > figures ? each : round(1e3 * each) / 1e3, unit, more);
+  return isNumber(value) ? [figures, 5, 6, 7, 8, 9, 10, 11, 12].map((more) => told(value, more)).find((text) => value === missed || text !== told(missed)) ?? told(value) : say("without bounds");
+};
 /* The number that tells a rule: the condition's own, of a share without a unit the one that its sentence says. */
 const unitOf = ({ unit, constraints }, { c }) => constraints[c]?.unit ?? unit;
-const ruleNumber = (question, each) => (!question.unit.unit && isNumber(each.says?.value) ? size(each.says.value, question.saysUnit) : size(each.value, unitOf(question, each), question.need));
+const ruleNumber = (question, each) => (!question.unit.unit && isNumber(each.says?.value) ? size(each.says.value, question.saysUnit) : size(each.value, unitOf(question, each), each.kept === false ? each.limit : undefined));
 function answerText(question, each) {
   const { rule, words, fails, saysUnit } = question, unit = unitOf(question, each);
   if (each.unknown) return say("as delivered: with these sizes the page does not follow it");
   if (each.ok === null) return say("says nothing: no place is left to judge");
   if (!(abs(each.value) >= 0) || (each.kept === false && each.margin >= 0)) return say("it has no value at places that were looked at");
-  const limit = size(each.limit, unit), told = each.says && isNumber(each.says.value) ? each.says : each;
+  const limit = size(each.limit, unit), missed = each.kept ? undefined : each.limit, told = each.says && isNumber(each.says.value) ? each.says : each;
   const text = ((each.kept ? words : fails?.[each.symbol]) || [])[language === "ru" ? 1 : 0];
   if (text && (!each.says || told === each.says)) {
-    const value = size(told.value, each.says ? saysUnit : unit, question.need), beyond = size(abs(each.value - each.limit), unit);
+    const value = each.says ? size(told.value, saysUnit) : size(each.value, unit, missed), beyond = size(abs(each.value - each.limit), unit);
     const filled = { value, share: value, place: situationText(told), limit, force: beyond, much: beyond, missing: beyond };
     return text.replace(/^; /, "").replace(/\{(\w+)\}/g, (_, name) => filled[name]);
   }
-  const given = { value: size(each.value, unit, question.need), place: situationText(each), limit };
+  const given = { value: size(each.value, unit, missed), place: situationText(each), limit };
   const plain = each.symbol === "<=" ? say("greatest {value}, {place}; not above {limit}", given) : say("least {value}, {place}; not below {limit}", given);
   return data.limits[rule] ? `${plain} (${limitText(data.limits[rule])})` : plain;
 }
@@ -345,12 +347,12 @@ function count(found) {
 function atPose() {
   const at = followed(stands).slice(0, own.length), { covered, among, found } = asking.here(at, pose, strokes[runs].courses ? strokes[runs].over : -1), faults = [];
   for (const [q, each] of found.entries()) {
-    const unit = unitOf(questions[q], each), value = isNumber(each.value) ? ruleNumber(questions[q], each) : say("no value");
-    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) && value === size(each.value, unit, questions[q].need) ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : each.case });
+    const unit = unitOf(questions[q], each), isOwn = questions[q].unit.unit || !isNumber(each.says?.value), value = isNumber(each.value) ? ruleNumber(questions[q], each) : say("no value");
+    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) && isOwn ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : each.case });
   }
   for (const each of columns) {
     const given = data.limits[each.name], value = given && each.row !== undefined && !questions.some(({ rule }) => rule === each.name) ? pose.values[each.row][0] : NaN;
-    if (given && !given[4] && (given[2] === "below" ? value < given[0] - 1e-9 * each.factor : value > given[0] + 1e-9 * each.factor)) faults.push({ rule: called(each), text: size(value, each), limit: size(given[0], each), case: "" });
+    if (given && !given[4] && (given[2] === "below" ? value < given[0] - 1e-9 * each.factor : value > given[0] + 1e-9 * each.factor)) faults.push({ rule: called(each), text: size(value, each, given[0]), limit: size(given[0], each), case: "" });
   }
   for (const { point, row } of data.joints) {
     const angle = pose.values[row][0];

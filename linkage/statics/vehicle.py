@@ -539,7 +539,7 @@ def slipping_sentence(worst: Answer) -> str:
     if worst.value == 0.0:
         return said("along the ground it uses none of its friction.")
     text = noted("along the ground it uses at most {share} % of its friction, {place}; at 100 % it slips.") if worst.ok else SLIPPING
-    return translated(text).format(share=shown_number(100.0 * float(worst.value), "", 3), place=worst.place)
+    return translated(text).format(share=shown_number(100.0 * float(worst.value), "", 3, None if worst.ok else 100.0), place=worst.place)
 
 
 # The force of a support when the drive's force is known.

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Tank, load_pressure, pilot_pressure
-from hydraulics.remedy import show_enough
 from linkage import LEFT, DefinitionError, Dyad, Force, Ground, Guide, LoadCase, Mechanism, OnGuide, OnLink, Stroke, Weight
 from linkage.files import load, to_toml
-from linkage.units import bar, deg, kN, litre, minute, mm
+from linkage.units import bar, deg, kN, litre, minute, mm, show
 from tests.for_all import for_all
 from tests.members import told_by
 
@@ -53,7 +52,7 @@ def test_a_tank_with_pressure_presses_back_and_opens():
 
     motion, line = Loaded().sweep(2), (80 * kN + 12 * bar * ANNULUS) / PISTON
     assert Loaded.valve.load_pressure(motion) == pytest.approx(np.full(2, line + 3 * 12 * bar), rel=1e-12)
-    assert f"holds up to {show_enough(line, 'bar')}" in str(*verdicts(Loaded, "holding"))
+    assert f"holds up to {show(line, 'bar', 4)}" in str(*verdicts(Loaded, "holding"))
     (setting,) = verdicts(Loaded, "setting")
     assert setting.ok is False and "pressure in lowering act on the valve as up to 144 bar in lifting" in setting.sentence
 

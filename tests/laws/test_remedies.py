@@ -293,7 +293,7 @@ def test_the_push_that_lowers_is_what_the_other_side_has_to_have(tmp_path):
         assert found.ok is False and push > tank
         assert by_rule(made(**{"drain.pressure": push}), "line")["lowering"].ok
         assert not by_rule(made(**{"drain.pressure": 0.995 * push}), "line")["lowering"].ok
-    told = f"| lowering line | **not kept** | {push / bar:.4g} bar |"  # a report's table has the same number
+    told = f"| lowering line | **not kept** | {found.answer.value / bar:.4g} bar |"  # what is measured, to the nearest
     assert told in report(made(), tmp_path / "pulled.md").read_text()
 
 

@@ -11,7 +11,6 @@ import pytest
 
 from hydraulics import Cylinder, LiftCircuit, OilLine, Pump, Tank, Telescope, pressure, thrust
 from hydraulics.cylinders import AllOf
-from hydraulics.remedy import show_enough
 from linkage import (
     RIGHT,
     Dimension,
@@ -41,7 +40,7 @@ from linkage.pictures.page_data import PageRequests, page_data
 from linkage.pictures.page_file import page_part
 from linkage.pictures.shown_values import typeset
 from linkage.reports import is_column
-from linkage.units import SYSTEMS, bar, deg, kN, mm, unit_system
+from linkage.units import SYSTEMS, bar, deg, kN, mm, show, shown_number, unit_system
 from mechanisms.crane import Crane
 from mechanisms.grapple import Grapple
 from mechanisms.mower_lift import MowerLift
@@ -120,18 +119,24 @@ class Dumper(Mechanism):
 
 @NEEDED
 def test_a_page_rounds_as_python_does():
-    """Halves, which languages round two ways, and what is needed, which is rounded up so that what is read is enough."""
+    """Halves, which languages round two ways, and values beside a limit that they miss, which are told from it."""
     random = np.random.default_rng(3)
     halves = [(random.integers(-9999, 9999) / 2.0**k, k - 1) for k in (1, 2, 3, 4) for _ in range(15)]
-    needed = [*random.uniform(1e5, 3e7, 60).tolist(), 170.0 * bar, 170.04 * bar]
+    parts = [1.0 + sign * 10.0**-k for k in range(2, 9) for sign in (-1, 1)]
+    near = [(limit * part, limit) for part in parts for limit in random.uniform(1e5, 3e7, 5).tolist()]
+    near += [(170.02 * bar, 170.0 * bar), (170.0 * bar, 170.0 * bar), (170.0 * bar, 165.0 * bar)]
     text = re.search(r"(?s)const minus.*?(?=const signed)", page_part("mechanism.js"))[0]
-    text += re.search(r"const enough.*", page_part("verdicts.js"))[0]
-    said = "job[0].map(([v,d])=>fixed(v,d)).concat(job[1].map((v)=>short(enough(v,{factor:1e5})/1e5,4)))"
-    code = f"const {{abs,min,max,floor,ceil,log10,round}}=Math,isNumber=Number.isFinite;{text};const job={json.dumps([halves, needed])}"
+    text += "const shown=(value,{factor,unit},digits)=>`${short(value/factor,digits)} ${unit}`;"
+    text += re.search(r"(?s)const size = .*?\n};", page_part("verdicts.js"))[0]
+    said = "job[0].map(([v,d])=>fixed(v,d)).concat(job[1].map(([v,l])=>size(v,{factor:1e5,unit:'bar'},l)))"
+    code = f"const {{abs,min,max,floor,ceil,log10,round}}=Math,isNumber=Number.isFinite;{text};const job={json.dumps([halves, near])}"
     run = subprocess.run(["node", "-e", f"{code};console.log(JSON.stringify({said}))"], capture_output=True, text=True, check=True)
     found = [each.replace("\u202f", "").replace("\u2212", "-") for each in json.loads(run.stdout)]
-    expected = [f"{value:z.{digits}f}" for value, digits in halves] + [f"{float(show_enough(each, 'bar').split()[0]):g}" for each in needed]
+    expected = [f"{value:z.{digits}f}" for value, digits in halves] + [show(value, "bar", 4, limit) for value, limit in near]
     assert found == expected
+    assert all(value == limit or show(limit, "bar", 4) != show(value, "bar", 4, limit) for value, limit in near)
+    assert (shown_number(0.9999996, "", ".3f", 1.0), shown_number(1.0, "", ".3f", 1.0)) == ("0.9999996", "1.000")
+    assert expected[-3:] == ["170.02 bar", "170 bar", "170 bar"]
 
 
 @NEEDED

@@ -4,8 +4,7 @@ import warnings
 
 from ..star import declare_public
 from .axes import FRAME_AXES, Axes, is_nothing
-from .course import Course, course_of, ramp
-from .curve import Curve, CurveValue
+from .course import Course, Curve, CurveValue, course_of, ramp
 from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned
 from .member import (

@@ -905,7 +905,7 @@ class Judge:
         place = found[least][0]
         if known and np.isfinite(margins[least]):  # of a tie the place of the first: `Over`, case, extending before retracting
             near = TIE * (abs(margins[least]) + abs(float(worst.value)))
-            same = (k for k in known if candidates[k].constraint is worst.constraint)
+            same = (k for k in known if are_alike or candidates[k].constraint is worst.constraint)
             first = next(k for k in same if margins[k] <= margins[least] + near)
             place, worst = found[first][0], replace(candidates[first], value=worst.value)
         if known:

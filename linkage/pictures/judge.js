@@ -80,7 +80,7 @@ const judging = (engine, { overs: all, questions, most, travel, near }, watched 
     const gone = found.some((each) => lost && lost[each.over].share && !overs[each.over].lost);
     if (!known.length) return { ok: lawless || gone || found.some((each) => each.lawless) ? false : null, kept: lawless ? false : null, value: NaN };
     const areAlike = new Set(constraints.map((each) => each.unit?.unit)).size === 1, least = known.reduce((a, b) => ((areAlike || a.c === b.c ? b.margin < a.margin : b.used > a.used * (1 + TIE)) ? b : a));
-    const worst = known.find((each) => each.c === least.c && each.margin <= least.margin + TIE * least.size) ?? least;
+    const worst = known.find((each) => (areAlike || each.c === least.c) && each.margin <= least.margin + TIE * least.size) ?? least;
     const kept = worst.margin >= 0 && !lawless, several = (name) => new Set(found.map((each) => (each.at && each.at[name]) || "")).size > 1;
     /* Where it stands in words, of a place of one of its pieces. */
     const stood = (at, o, u) => {

@@ -166,8 +166,10 @@ class Members:
         for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
             if each in self.strokes and isinstance(value, Amount):
                 require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
-        for _, coordinate in member.coordinates():
-            self._check_terms(coordinate, "length", f"{self.title}: {name} = {member}")
+        joints = member.joints() if isinstance(member, Jointed) and member.kind != "load" else ()
+        pushed = [drive.quantity for joint in joints for drive in joint.drives if drive.along == "t"]
+        for length in (*(each for _, each in member.coordinates()), *pushed):
+            self._check_terms(length, "length", f"{self.title}: {name} = {member}")
         parts = self.with_parts(name)
         for angle in (each for part in parts for each in part.in_radians()):
             self._check_terms(angle, "angle", f"{self.title}: {name} = {member}")
@@ -189,8 +191,16 @@ class Members:
             raise DefinitionError(f"{self.title}: {name} = {member} follows a stroke, but is fixed; {remedy}.")
 
     def _check_terms(self, given: Quantity, measures: str, what: str) -> None:
-        """Raise DefinitionError where a number or a dimension that a length or an angle is a sum of measures something else."""
+        """Raise DefinitionError where a term of a length or an angle measures something else, or is a stroke that stands for both."""
         for _, term in signed_terms(given, self.members):
+            own = "angle" if isinstance(term, Stroke) and term.name in self.turning else term.measures
+            if {own, measures} == {"length", "angle"}:
+                parts = ((name, part) for name in self.members if isinstance(term, Stroke) for part in self.with_parts(name))
+                turned = ((name, angle) for name, part in parts for angle in part.in_radians())
+                users = (f" in {name} = {self.members[name]}" for name, angle in turned if term.name in self.terms(angle))
+                found, wanted = ({"angle": "an angle", "length": "a length"}[each] for each in (own, measures))
+                remedy = f"on a radius r write r * {term.name or term} for the length, {term.name or term} / r for the angle"
+                raise DefinitionError(f"{what}: {term.name or term} is {found}{next(users, '')}, and {wanted} is expected; {remedy}.")
             amount = term.number if isinstance(term, Number) else term.default if isinstance(term, Dimension) else None
             if isinstance(amount, Amount):
                 require_measure(amount, measures, f"{self.title}: {term.name}" if term.name else f"{what}: a term of the {measures}")

@@ -601,7 +601,7 @@ def test_what_a_part_says_of_its_own_fixed_points_follows_nothing_that_carries_i
     class Lever(Mechanism):
         turn = Stroke(0.2, 1.2)
         O, E = Ground(0.1, 0.2), Ground(0.5, 0.0)
-        C = Crank(O, OC=0.3 + 0.1 * x(O), angle=turn + x(O))
+        C = Crank(O, OC=0.3 + 0.1 * x(O), angle=turn + 0.8 * x(O))
         load = Weight(C, mass=50)
         ram = Cylinder(E, C, bore=50 * mm, rod=28 * mm)
         pump = LiftCircuit(ram, pressure=200 * bar)

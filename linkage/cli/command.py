@@ -176,6 +176,13 @@ def picture(options: Namespace, machine: Mechanism, suffixes: Sequence[str] = PI
     return path
 
 
+def without_lists_of_properties() -> None:
+    """Let Matplotlib, as it loads, write no lists of properties into its help, which takes 0.2 s and which no command shows."""
+    import matplotlib.artist
+
+    matplotlib.artist.kwdoc = lambda artist: ""
+
+
 def default_name(options: Namespace, machine: Mechanism, name: str = "") -> str:
     """Return the name of a file that is not named, without its suffix: the machine's, unless another one is given."""
     name = name or options.machine

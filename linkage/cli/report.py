@@ -27,6 +27,7 @@ from .command import (
     repeatable,
     run_options,
     whole_number,
+    without_lists_of_properties,
 )
 from .settings import ALONG, FORCES, LIMIT, OVER, machine_of, motion_along, overs_of, pair, si_value, strokes_given, with_overs
 
@@ -57,6 +58,7 @@ TITLE = {
 )
 def report_command(options: Namespace) -> int:
     """Write a report."""
+    without_lists_of_properties()
     from ..documents import report
 
     machine = machine_of(options)
@@ -151,6 +153,7 @@ def draw_command(options: Namespace) -> int:
         settings.with_gaps(machine, stroke_middles(machine) | at)
     else:
         settings.motion_along(machine, options.count)
+    without_lists_of_properties()
     from ..pictures import draw
 
     draw(
@@ -180,6 +183,7 @@ def plot_command(options: Namespace) -> int:
     fits = options.columns or not (options.limits or options.case or options.direction)
     ensure(fits, "--limit, --case and --direction go with curves; name their columns, such as plot NAME pressure.")
     at = settings.strokes_or_motion(machine, options)
+    without_lists_of_properties()
     from ..pictures import plot
 
     if options.columns or isinstance(at, Motion):
@@ -232,6 +236,7 @@ def animate_command(options: Namespace) -> int:
         column, limit = settings.parse_limit(text, columns)
         if options.column not in (None, column):
             raise DefinitionError(f"--limit is of {column}, and the curve that runs along is of {options.column}; name the same column.")
+    without_lists_of_properties()
     from ..pictures import animate
 
     with progress_bar(f"drawing {path.name}") as progress:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import permutations
 from typing import Any
 
@@ -14,6 +14,7 @@ import sympy
 
 from ..errors import DefinitionError, LinkageError, SingularWarning
 from ..formulas import Equation, Equations, equations, explicit
+from ..formulas.arithmetic import ValuesOf
 from ..formulas.listing import X_AXIS
 from ..formulas.names import Direction
 from ..formulas.numbered import members_with_lines
@@ -213,16 +214,9 @@ def column_name(symbol: str) -> str:
 
 def worked_out(expr: sympy.Expr, known: Mapping[sympy.Symbol, Numbers]) -> Numbers:
     """Return an expression's value from those of its symbols."""
-    needed, function = function_of(expr)
     with np.errstate(all="ignore"):
-        return function(*(known[symbol] for symbol in needed))
-
-
-@lru_cache(maxsize=2048)
-def function_of(expr: sympy.Expr) -> tuple[Sequence[sympy.Symbol], Callable[..., Numbers]]:
-    """Return an expression's symbols, and the function of their values that it is."""
-    needed: Sequence[sympy.Symbol] = sorted(expr.free_symbols, key=str)
-    return needed, sympy.lambdify(needed, expr, "numpy", dummify=True)
+        value: Numbers = ValuesOf(known)[expr]
+    return value
 
 
 def is_close(values: FloatArray, engine: FloatArray) -> bool:
@@ -384,17 +378,4 @@ def is_given(trial: Trial | None, place: int, expr: sympy.Expr) -> bool:
     if not expr.free_symbols <= known.keys():
         return False
     size = float(np.nanmax(np.abs(column), initial=0.0))
-    value = known[expr] if expr.is_Symbol else quick_value(expr, known)
-    return bool(np.allclose(value, column, rtol=0.0, atol=EQUAL * max(size, NEGLIGIBLE), equal_nan=True))
-
-
-def quick_value(expr: sympy.Expr, known: Mapping[sympy.Symbol, Any]) -> Any:
-    """Return the value of a product of powers of symbols, or of a sum of such."""
-    if expr.is_Symbol:
-        return known[expr]
-    if expr.is_Number:
-        return float(expr)
-    if expr.is_Pow:
-        return quick_value(expr.base, known) ** int(expr.exp)
-    parts = [quick_value(each, known) for each in expr.args]
-    return sum(parts) if expr.is_Add else np.multiply.reduce(np.broadcast_arrays(*parts))
+    return bool(np.allclose(worked_out(expr, known), column, rtol=0.0, atol=EQUAL * max(size, NEGLIGIBLE), equal_nan=True))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import Self
 
 import sympy
@@ -141,8 +142,14 @@ def explicit(expr: sympy.Basic) -> tuple[sympy.Expr, ...]:
     """
     entries = components_of(expr) if getattr(expr, "shape", None) == (2, 1) else (expr.doit(),)
     parts = set().union(*(each.atoms(MatrixElement) for each in entries))
-    plain = {part: sympy.Symbol(f"{part.parent.name}.{'xy'[int(part.i)]}", real=True) for part in parts}
+    plain = {part: plain_symbols(part.parent.name)[int(part.i)] for part in parts}
     return tuple(each.xreplace(plain) for each in entries)
+
+
+@lru_cache(maxsize=4096)
+def plain_symbols(vector: str) -> tuple[sympy.Symbol, sympy.Symbol]:
+    """Return the symbols of a vector's components: `AB.x` and `AB.y`."""
+    return sympy.Symbol(f"{vector}.x", real=True), sympy.Symbol(f"{vector}.y", real=True)
 
 
 class SymbolNames:

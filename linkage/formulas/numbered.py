@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Iterator, Mapping, Sequence
 from textwrap import wrap
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias, overload
@@ -24,9 +23,10 @@ from ..shown import Shown
 from ..statics.applied import case_of
 from ..units import SI, UNITS, factor, shown_in
 from ..vectors import Numbers
+from .arithmetic import ValuesOf
 from .forces import WORDS, ForceLines, LineDerivatives, lines_needed, symbols_behind
 from .listing import LENGTH, X_AXIS, GivenNumber, Listing, ListingLine, Unit
-from .names import Cross, Direction, Dot, Tcos, TurnV, TurnVL, escaped_latex, explicit
+from .names import Cross, Deg, Direction, Dot, Tcos, TurnV, TurnVL, escaped_latex, explicit, plain_symbols
 from .printing import Latex, Text, number_latex, plain_number
 
 
@@ -563,18 +563,30 @@ def evaluated(lines: Sequence[ListingLine], inputs: Mapping[sympy.Symbol, Any], 
     """Return every line's value [SI]: a scalar or a pair, by its symbol.
 
     `inputs` are the plain symbols' values. With `digits` mpmath works at that many digits and the values
-    are SymPy's; else both are NumPy's.
+    are SymPy's; else both are NumPy's. A value that is no real number goes on as NaN.
     """
+    known = dict(inputs) | dict(zip(plain_symbols(X_AXIS.name), (1.0, 0.0), strict=True))
     if digits is None:
         with np.errstate(all="ignore"):
-            return _evaluated(lines, dict(inputs), "numpy")
+            return line_values(lines, ValuesOf({symbol: np.asarray(value, float)[()] for symbol, value in known.items()}))
     with mpmath.workdps(digits + 10):
-        exact = {symbol: mpmath.mpf(repr(float(value))) for symbol, value in inputs.items()}
-        found = _evaluated(lines, exact, "mpmath")
+        found = line_values(lines, ValuesOf({symbol: mpmath.mpf(repr(float(value))) for symbol, value in known.items()}, mpmath))
     return {  # SymPy's numbers keep their digits wherever they are shown
         symbol: tuple(sympy.Float(part, digits) for part in value) if isinstance(value, tuple) else sympy.Float(value, digits)
         for symbol, value in found.items()
     }
+
+
+def line_values(lines: Sequence[ListingLine], values: ValuesOf) -> dict[sympy.Basic, Any]:
+    """Return the lines' values, each from those before it."""
+    found: dict[sympy.Basic, Any] = {}
+    for line in lines:
+        try:
+            value = values[line.rhs.xreplace({each: each.doit() for each in line.rhs.atoms(Deg)})]
+        except ZeroDivisionError:  # mpmath's; NumPy has no value there either and says so by NaN or infinity
+            value = (mpmath.nan, mpmath.nan) if line.lhs.is_Matrix else mpmath.nan
+        found[line.lhs] = values[line.lhs] = tuple(map(in_reals, value)) if line.lhs.is_Matrix else in_reals(value)
+    return found
 
 
 def in_reals(value: Any) -> object:
@@ -582,55 +594,3 @@ def in_reals(value: Any) -> object:
     if isinstance(value, mpmath.mpc):
         return value.real if value.imag == 0 else mpmath.nan
     return np.where(np.imag(value) == 0.0, np.real(value), np.nan)[()] if np.iscomplexobj(value) else value
-
-
-def _evaluated(lines: Sequence[ListingLine], known: dict[sympy.Symbol, Any], arithmetic: str) -> dict[sympy.Basic, object]:
-    known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
-    try:
-        return in_one_call(lines, known, arithmetic)
-    except ZeroDivisionError:  # mpmath's; NumPy has no value there either and says so by NaN or infinity
-        found: dict[sympy.Basic, Any] = {}
-        for line in lines:
-            parts = explicit(line.lhs)
-            try:
-                found |= in_one_call([line], known, arithmetic)
-            except ZeroDivisionError:
-                found[line.lhs] = mpmath.nan if len(parts) == 1 else (mpmath.nan,) * len(parts)
-            known |= dict(zip(parts, found[line.lhs] if len(parts) > 1 else (found[line.lhs],), strict=True))
-        return found
-
-
-def in_one_call(lines: Sequence[ListingLine], known: Mapping[sympy.Symbol, object], arithmetic: str) -> dict[sympy.Basic, object]:
-    """Return the lines' values, worked out by one function that is compiled once for all designs of a class."""
-    function, needed = compiled_lines(tuple((line.lhs, line.rhs) for line in lines), arithmetic)
-    values = iter(function(*(known[symbol] for symbol in needed)))
-    return {line.lhs: (next(values), next(values)) if line.lhs.is_Matrix else next(values) for line in lines}
-
-
-@lru_cache(maxsize=64)
-def compiled_lines(
-    lines: tuple[tuple[sympy.Basic, sympy.Basic], ...], arithmetic: str
-) -> tuple[Callable[..., Sequence[object]], tuple[sympy.Symbol, ...]]:
-    """Return a function of plain symbols that gives the values of lines, (left, right) each, one after the other, and these symbols.
-
-    A value that is no real number goes on as NaN.
-    """
-    written = [(explicit(left), explicit(right)) for left, right in lines]
-    symbols = set().union(*(each.free_symbols for _, right in written for each in right), *(left for left, _ in written))
-    # The order of sums stays. Real ones tell SymPy at once what it asks of each power.
-    plain = {symbol: sympy.Symbol(f"v{place:05d}", real=True) for place, symbol in enumerate(sorted(symbols, key=str))}
-    assigned: list[tuple[sympy.Symbol, sympy.Expr]] = []
-    needed: dict[sympy.Symbol, sympy.Symbol] = {}
-    made: set[sympy.Symbol] = set()
-    for left, right in written:
-        used = set().union(*(each.free_symbols for each in right)) - made
-        needed |= {symbol: plain[symbol] for symbol in sorted(used, key=str)}
-        made.update(left)
-        assigned += [(plain[part], REAL(each.xreplace(plain))) for part, each in zip(left, right, strict=True)]
-    modules = [{REAL.__name__: in_reals}, arithmetic]
-    function = sympy.lambdify([*needed.values()], [name for name, _ in assigned], modules, cse=lambda whole: (assigned, whole))
-    return function, tuple(needed)
-
-
-REAL = sympy.Function("in_reals")
-"""What marks a value in a compiled function that has to be real."""

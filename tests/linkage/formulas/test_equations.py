@@ -7,7 +7,6 @@ from numpy.testing import assert_allclose
 
 from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg
 from linkage.formulas import Equations, Tcos, TurnVL, equations, explicit
-from linkage.formulas.numbered import compiled_lines
 from linkage.plan import ArrayReading
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -201,7 +200,7 @@ def test_program_read_by_sympy_has_the_motions_derivatives():
                 assert_allclose(found, values, rtol=1e-12, atol=1e-13, err_msg=f"{target}, order {order}")
 
 
-def test_designs_of_a_class_share_one_compiled_function_and_a_line_that_divides_by_zero_stays_alone():
+def test_designs_have_their_own_values_and_a_line_that_divides_by_zero_stays_alone():
     class Arm(Mechanism):
         S = Stroke(0.0, 0.2)
         O = Ground(0.0, 0.0)
@@ -210,10 +209,8 @@ def test_designs_of_a_class_share_one_compiled_function_and_a_line_that_divides_
         slope = angle(O, P)
         steep = 1.0 / (S - 0.1)
 
-    compiled_lines.cache_clear()
     for length in (0.4, 0.42):
         plain, exact = equations(Arm(OP=length)).values({"S": 0.05}), equations(Arm(OP=length)).values({"S": 0.05}, digits=30)
         assert plain["slope"] == pytest.approx(float(exact["slope"]), rel=1e-14) and plain["steep"] == pytest.approx(-20.0)
-    assert compiled_lines.cache_info().misses == 2  # one for floats, one for digits
     there = equations(Arm).values({"S": 0.1}, digits=30)
     assert sympy.nan == there["steep"] and float(there["slope"]) == pytest.approx(Arm().at(S=0.1)["slope"], rel=1e-14)

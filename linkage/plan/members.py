@@ -412,7 +412,7 @@ class Members:
                 yield from self.factors(found.a, power)
                 yield from self.factors(found.b, power if found.symbol == "*" else -power)
             case Negative():
-                yield from self.factors(found.a, power)
+                yield from ((power, Number(-1.0)), *self.factors(found.a, power))
             case _:
                 yield power, found
 

@@ -480,7 +480,7 @@ class Negative(Expression):
 
 
 def signed_terms(given: Quantity, members: Mapping[str, Member], sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
-    """Yield the terms of a sum with their signs, names looked up among the members of a class."""
+    """Yield the terms of a sum with their signs, of its multiples too; names are looked up among the members of a class."""
     match given:
         case Ref():
             yield from signed_terms(cast(Quantity, members[given.target]), members, sign)
@@ -489,6 +489,10 @@ def signed_terms(given: Quantity, members: Mapping[str, Member], sign: float = 1
             yield from signed_terms(given.b, members, sign)
         case Negative():
             yield from signed_terms(given.a, members, -sign)
+        case Operation(symbol="*" | "/") if len(terms := [*signed_terms(given.a, members, sign)]) > 1:
+            yield from ((own, Operation(given.symbol, term, given.b)) for own, term in terms)
+        case Operation(symbol="*") if len(terms := [*signed_terms(given.b, members, sign)]) > 1:
+            yield from ((own, Operation("*", given.a, term)) for own, term in terms)
         case _:
             yield sign, given
 

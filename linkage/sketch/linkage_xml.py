@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from io import StringIO
 from math import cos, sin
@@ -86,12 +87,14 @@ def parsed_xml(found: FoundMachine, text: str) -> Element:
 
 
 def linkage_xml(sketch: MachineSketch) -> str:
-    """Return a sketch as a file of Linkage, in the millimetres that it shows; DefinitionError for several drives of one pivot."""
+    """Return a sketch as a file of Linkage, in the millimetres that it shows; DefinitionError for what a file of it cannot say."""
     unit = SHOWN["millimeters"]
     root = Element("linkage2")
     SubElement(root, "program", zoom="1", xoffset="0", yoffset="0", scalefactor="1", units="Millimeters")
     points, links = dict(sketch.points), {name: [*points] for name, points in sketch.links.items()}
     fixed, slides = {*sketch.fixed}, dict[str, tuple[str, str]]()
+    twice = next((point for point, count in Counter(each.point for each in sketch.slides.values()).items() if count > 1), None)
+    ensure(twice is None, f"{sketch.name}: {twice} runs on two lines, and a connector of Linkage has one slide; give one a pin of its own.")
     for name, slide in sketch.slides.items():
         if isinstance(slide.along, tuple):
             slides[slide.point] = slide.along

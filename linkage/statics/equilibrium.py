@@ -503,11 +503,11 @@ class System:
         return [*found, *self.geared(), *self.tied()]
 
     def geared(self) -> Iterator[tuple[LinearForm, FloatArray]]:
-        """Yield the equations of couples in gears: those of a crank and the bodies it follows, and of cranks on one stroke, do no work."""
+        """Yield the equations of gears: couples and forces of a joint and the bodies it follows, and of cranks on one stroke, do no work."""
         poses = self.poses
         for gear in self.structure.gears:
             factors = [poses.flattened(poses.motion._placed.value(each)) ** power for power, each in gear.factors]
-            own = self.unknown(gear.crank, "c", 1.0).multiplied(reduce(np.multiply, factors, poses.zeros() + gear.sign))
+            own = self.unknown(gear.joint, gear.letter, 1.0).multiplied(reduce(np.multiply, factors, poses.zeros() + gear.sign))
             yield self.unknown(gear.contact, "c", 1.0).plus(own), poses.zeros()
         for stroke in sorted(set[str]().union(*self.structure.geared)):
             forms = [force.multiplied(ratio) for each in self.structure.contacts for ratio, force in self.driven(each, stroke)]

@@ -21,6 +21,7 @@ from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, me
 from ..program import FloatArray
 from ..quantities import (
     Angle,
+    Distance,
     Driven,
     Joint,
     JointSide,
@@ -318,10 +319,11 @@ class Contact:
 
 @immutable
 class Gear:
-    """The couple on a body that a crank's angle is geared to: against the crank's own, `sign` and factors times it, each to a power."""
+    """The couple on a body that a joint is geared to: against its own couple, or a rack's force, `sign` and factors times it."""
 
     contact: Contact
-    crank: Contact
+    joint: Contact
+    letter: str
     sign: float
     factors: tuple[tuple[int, Quantity], ...]
 
@@ -382,15 +384,17 @@ class Structure:
                 kind = "guide"
             if kind == "guide" and 0 <= on < len(self.blocks):
                 kind, holds = "slider", holds + "c"
-            turned = list(geared_to(self.plan, joint, name)) if "c" in holds else []
-            if len(turned) == 1 and turned[0][1:] == (1.0, ()):
-                by = self.carrier(*turned.pop()[0], name)
+            geared = [each for each in geared_to(self.plan, joint, name) if each[0] in holds]
+            if len(geared) == 1 and geared[0][0] == "c" and geared[0][2:] == (1.0, ()):
+                by = self.carrier(*angle_ends(geared.pop()[1]), name)
             found = Contact(kind, joint.point, on, by, holds, joint, name, track)
             yield found
-            for ends, sign, factors in turned:
-                gear = Joint("gear", ends[0], JointSide(ends), joint.by, "c")
-                self.gears.append(Gear(Contact("gear", ends[0], self.carrier(*ends, name), by, "c", gear, name), found, sign, factors))
-                yield self.gears[-1].contact
+            for letter, angle, sign, factors in geared:
+                ends, carrier = angle_ends(angle), angle.axes.carrier
+                turned, against = self.carrier(*ends, name), self.carrier(*carrier, name) if carrier else FRAME
+                gear = Contact("gear", ends[0], turned, against, "c", Joint("gear", ends[0], JointSide(ends), JointSide(carrier), "c"), name)
+                self.gears.append(Gear(gear, found, letter, sign, factors))
+                yield gear
 
     def sliding_joints(self) -> Iterator[Contact]:
         """Yield the joints between the two bodies of a member: across and against turning, and along where such a member acts."""
@@ -457,7 +461,7 @@ class Structure:
         """Return the cranks whose couples gears give: geared to a body, or to each other on a stroke that is taken over."""
         turned = [each for each in self.contacts if "c" in each.joint.holds]
         coupled = [each for each in turned if frozenset(self.followed(each.joint)[0]["c"]) in self.geared]
-        return tuple(dict.fromkeys(each.owner for each in (*coupled, *(gear.crank for gear in self.gears))))
+        return tuple(dict.fromkeys(each.owner for each in (*coupled, *(gear.joint for gear in self.gears))))
 
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
         """Yield the drives of a contact: the quantity, the letter of the force that is conjugate to it, and its sign."""
@@ -595,31 +599,42 @@ class Structure:
 
 
 def own_terms(plan: Plan, drive: Driven) -> list[tuple[float, Quantity]]:
-    """Return the terms of a driven quantity with their signs, of an angle those which turn with no moving body."""
-    if drive.along != "c":
-        return [(1.0, drive.quantity)]
-    return [(sign, term) for sign, term in signed_terms(drive.quantity, plan.members) if not follows_points(plan, term)]
+    """Return the terms of a driven quantity with their signs, without those that turn with moving bodies."""
+    terms = [*signed_terms(drive.quantity, plan.members)]
+    own = [(sign, term) for sign, term in terms if not follows_bodies(plan, drive, term)]
+    return [(1.0, drive.quantity)] if drive.along != "c" and len(own) == len(terms) else own
 
 
-def geared_to(plan: Plan, joint: Joint, owner: str) -> Iterator[tuple[tuple[str, str], float, tuple[tuple[int, Quantity], ...]]]:
-    """Yield the directions of moving bodies that a turned joint's angle follows: two points, a sign, factors with their powers.
+def follows_bodies(plan: Plan, drive: Driven, term: Quantity) -> bool:
+    """Return whether a term of a driven quantity depends on moving points; a length may follow their distance, whose force is known."""
+    return follows_points(plan, term) and not (drive.along != "c" and isinstance(term, Distance))
 
-    Raises DefinitionError for an angle that depends on moving points in another way: its torque has no body to act against.
+
+def geared_to(plan: Plan, joint: Joint, owner: str) -> Iterator[tuple[str, Angle, float, tuple[tuple[int, Quantity], ...]]]:
+    """Yield the directions of moving bodies that a joint follows: what is driven, the angle, a sign, factors with their powers.
+
+    Raises DefinitionError for one that depends on moving points in another way: its force has no body to act against.
     """
     for drive in joint.drives:
-        terms = signed_terms(drive.quantity, plan.members) if drive.along == "c" else ()
-        for sign, term in terms:
-            if not follows_points(plan, term):
+        for sign, term in signed_terms(drive.quantity, plan.members):
+            if not drive.along or not follows_bodies(plan, drive, term):
                 continue
             factors = list(plan.factors(term))
             angles = [each for power, each in factors if power == 1 and isinstance(each, Angle)]
             others = tuple((power, each) for power, each in factors if each not in angles)
             if len(angles) != 1 or any(follows_points(plan, each) for _, each in others):
                 what = "for forces its angle is counted from the frame, from bodies or geared to them, such as angle(A, B) + phi"
-                remedy = f"or 180 * deg - angle(A, B) / 2; {drive.quantity} is neither."
-                raise DefinitionError(f"{plan.title}: {owner} = {plan.members[owner]}: {what} {remedy}")
+                remedy = "or 180 * deg - angle(A, B) / 2"
+                if drive.along != "c":
+                    what, remedy = "for forces its place follows strokes, or is geared to bodies,", "such as at=0.3 + 0.1 * angle(A, B)"
+                raise DefinitionError(f"{plan.title}: {owner} = {plan.members[owner]}: {what} {remedy}; {drive.quantity} is neither.")
             (angle,) = angles
-            yield (name_of(angle.P), name_of(angle.Q)), sign * drive.sign * angle.axes.sign, others
+            yield drive.along, angle, sign * drive.sign * angle.axes.sign, others
+
+
+def angle_ends(angle: Angle) -> tuple[str, str]:
+    """Return the names of the two points of an angle."""
+    return name_of(angle.P), name_of(angle.Q)
 
 
 def follows_points(plan: Plan, quantity: Quantity) -> bool:

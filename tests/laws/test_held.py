@@ -207,7 +207,7 @@ def test_a_picture_shows_the_loose_movement():
 
 
 def geared(u):
-    """A rocker geared to two arms by numbers of random sizes and signs, and a third arm to the crank, all moved by one cylinder."""
+    """A rocker geared to two arms and a rack by random numbers, and a third arm to the crank, all moved by one cylinder."""
 
     class Geared(Mechanism):
         """Arms on gears."""
@@ -217,10 +217,13 @@ def geared(u):
         A = Crank(O, OA=0.2, angle=phi)
         B = Dyad(A, M, AB=0.4, MB=0.3, side=LEFT)
         C = Crank(N, NC=u(0.2, 0.5), angle=u(-3, 3) + gear * angle(M, B))
-        D = Crank(C, CD=u(0.2, 0.5), angle=u(0.4, 2) * angle(N, C) - u(-1, 1) * angle(A, B))
+        D = Crank(C, CD=u(0.2, 0.5), angle=u(0.4, 2) * angle(N, C) - u(-1, 1) * (u(0, 1) - angle(A, B)))
         E = Crank(R, RE=u(0.2, 0.5), angle=u(-3, 3) - phi / 2)
+        Q = OnLink(N, C, NQ=u(0.3, 0.6), CNQ=u(0.2, 2))
+        rail = Guide(Q, C) if u(-1, 1) > 0.0 else Guide((u(-1, 1), u(-1, 1)), angle=u(-3, 3))
+        P = OnGuide(rail, at=u(0.3, 0.6) * (u(1, 2) - angle(M, B)) + 0.5)
         ram = Cylinder(G, A, bore=63 * mm, rod=36 * mm)
-        on_B, on_C, on_D, on_E = Weight(B, mass=u(5, 50)), Weight(C, mass=u(5, 50)), Weight(D, mass=u(5, 50)), Weight(E, mass=u(5, 50))
+        on_B, on_C, on_D, on_E, on_P = (Weight(each, mass=u(5, 50)) for each in (B, C, D, E, P))
 
     return Geared
 

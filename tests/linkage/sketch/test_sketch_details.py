@@ -10,7 +10,7 @@ import pytest
 from linkage import DefinitionError, FileError, driving_force, export, pin_forces
 from linkage.cli import main
 from linkage.cli.machines import find
-from linkage.sketch import MachineSketch, SketchDrive, is_foreign, read_sketch, sketch_of, sketch_text
+from linkage.sketch import MachineSketch, SketchDrive, SketchSlide, is_foreign, read_sketch, sketch_of, sketch_text
 from tests import shipped
 from tests.for_all import first_daily, for_all
 from tests.linkage.sketch import emit
@@ -235,6 +235,9 @@ def test_what_does_not_fit_is_refused():
     for suffix, words in ((".linkage2", "two cranks turn about one pin"), (".txt", "a crank, a crank"), (".doc", "says no kind of file")):
         with pytest.raises(DefinitionError, match=words):
             sketch_text(twins, suffix)
+    crossed = MachineSketch("Crossed", points, ("O",), {}, slides={"u": SketchSlide("A", 0.0), "v": SketchSlide("A", ("O", "B"))})
+    with pytest.raises(DefinitionError, match="A runs on two lines"):
+        sketch_text(crossed, ".linkage2")
     with pytest.raises(DefinitionError, match="where its stroke begins"):
         sketch_text(sketch_of(shipped.MACHINES["three_point_hitch"], {"S": 0.1}), ".linkage2")
 

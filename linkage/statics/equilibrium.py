@@ -503,7 +503,7 @@ class System:
         return [*found, *self.geared(), *self.tied()]
 
     def geared(self) -> Iterator[tuple[LinearForm, FloatArray]]:
-        """Yield the equations of gears: couples and forces of a joint and the bodies it follows, and of cranks on one stroke, do no work."""
+        """Yield the equations of gears: what a joint and the bodies it follows, and cranks on one stroke, give does no work."""
         poses = self.poses
         for gear in self.structure.gears:
             factors = [poses.flattened(poses.motion._placed.value(each)) ** power for power, each in gear.factors]

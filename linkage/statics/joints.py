@@ -21,7 +21,7 @@ from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, me
 from ..program import FloatArray
 from ..quantities import (
     Angle,
-    Distance,
+    Coordinate,
     Driven,
     Joint,
     JointSide,
@@ -392,9 +392,9 @@ class Structure:
             for letter, angle, sign, factors in geared:
                 ends, carrier = angle_ends(angle), angle.axes.carrier
                 turned, against = self.carrier(*ends, name), self.carrier(*carrier, name) if carrier else FRAME
-                gear = Contact("gear", ends[0], turned, against, "c", Joint("gear", ends[0], JointSide(ends), JointSide(carrier), "c"), name)
-                self.gears.append(Gear(gear, found, letter, sign, factors))
-                yield gear
+                gear = Joint("gear", ends[0], JointSide(ends), JointSide(carrier), "c")
+                self.gears.append(Gear(Contact("gear", ends[0], turned, against, "c", gear, name), found, letter, sign, factors))
+                yield self.gears[-1].contact
 
     def sliding_joints(self) -> Iterator[Contact]:
         """Yield the joints between the two bodies of a member: across and against turning, and along where such a member acts."""
@@ -606,8 +606,10 @@ def own_terms(plan: Plan, drive: Driven) -> list[tuple[float, Quantity]]:
 
 
 def follows_bodies(plan: Plan, drive: Driven, term: Quantity) -> bool:
-    """Return whether a term of a driven quantity depends on moving points; a length may follow their distance, whose force is known."""
-    return follows_points(plan, term) and not (drive.along != "c" and isinstance(term, Distance))
+    """Return whether a term of what is driven turns with moving bodies, or stands at their places; a length may also be a line's."""
+    if drive.along == "c":
+        return follows_points(plan, term)
+    return any(isinstance(each, (Angle, Coordinate)) and follows_points(plan, each) for _, each in plan.factors(term))
 
 
 def geared_to(plan: Plan, joint: Joint, owner: str) -> Iterator[tuple[str, Angle, float, tuple[tuple[int, Quantity], ...]]]:

@@ -111,7 +111,7 @@ USES = [
     (
         "table lever.py --count @",
         "99999999999999999999",
-        ("hydrolinkage: argument --count: 99999999999999999999 poses do not", "to 1001; see hydrolinkage table --help."),
+        ("hydrolinkage: argument --count: 99999999999999999999 poses are more than", "to 1001; see hydrolinkage table --help."),
     ),
     (
         "table lever.py --count @",
@@ -121,7 +121,7 @@ USES = [
     (
         "plot lever.py --count @",
         "99999999999999999999",
-        ("hydrolinkage: argument --count: 99999999999999999999 poses do not", "to 1001; see hydrolinkage plot --help."),
+        ("hydrolinkage: argument --count: 99999999999999999999 poses are more than", "to 1001; see hydrolinkage plot --help."),
     ),
     (
         "plot lever.py --count @",
@@ -131,7 +131,7 @@ USES = [
     (
         "animate lever.py -o a.gif --count @",
         "99999999999999999999",
-        ("hydrolinkage: argument --count: 99999999999999999999 poses do not", "to 1001; see hydrolinkage animate --help."),
+        ("hydrolinkage: argument --count: 99999999999999999999 poses are more than", "to 1001; see hydrolinkage animate --help."),
     ),
     (
         "animate lever.py -o a.gif --count @",

@@ -391,7 +391,7 @@ class Structure:
             yield found
             for letter, angle, sign, factors in geared:
                 ends, carrier = angle_ends(angle), angle.axes.carrier
-                turned, against = self.carrier(*ends, name), self.carrier(*carrier, name) if carrier else FRAME
+                turned, against = self.carrier(*ends, name), self.carrier(carrier[0], carrier[1], name) if carrier else FRAME
                 gear = Joint("gear", ends[0], JointSide(ends), JointSide(carrier), "c")
                 self.gears.append(Gear(Contact("gear", ends[0], turned, against, "c", gear, name), found, letter, sign, factors))
                 yield self.gears[-1].contact

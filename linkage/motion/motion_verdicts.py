@@ -14,11 +14,11 @@ import numpy as np
 from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, UnfitError, unwarned
 from ..frozen import immutable
-from ..language import heading_of, said
+from ..language import heading_of, noted, said, translated
 from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
 from ..plan import Mask, Plan, name_or_pins, opening
 from ..quantities import Member
-from ..units import deg, display_unit, show
+from ..units import Amount, deg, display_unit, show, shown_number
 from ..verdict import Remark, Verdict
 from . import stroke_search
 from .answer import NONE_LOST, Answer, share_text
@@ -305,9 +305,17 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     if judge.acting.case is None and None not in occurring and all(place.over.name for place in judge.places):
         never = sorted({*judge.plan.of_kind(LoadCase)}.difference(*filter(None, occurring)))
         passed += [said("The load case {case} occurs over no Over, so that nothing is judged in it.", case=case) for case in never]
+    for name, stroke in judge.plan.strokes.items():
+        turns = abs(stroke.end - stroke.start) / (2.0 * np.pi)
+        if name in judge.plan.turning and turns > MANY_TURNS and not any(isinstance(end, Amount) for end in (stroke.start, stroke.end)):
+            ends = {end: shown_number(getattr(stroke, end), "") for end in ("start", "end")}
+            told = noted("the stroke {stroke} is {turns} turns, in radians; degrees are written Stroke({start} * deg, {end} * deg).")
+            passed.append(translated(told).format(stroke=f"{name} = {stroke}", turns=shown_number(turns, "", 3), **ends))
     return [Verdict("assembly", ok, text, answer=answer), *(Remark(f"{each[0].upper()}{each[1:]}") for each in passed)]
 
 
+MANY_TURNS = 2.0
+"""Of a stroke in rad that is written without a unit: more turns may be degrees."""
 SCARCELY = 0.01
 """Of a declared stroke: where no more of it runs, a unit may be missing there."""
 

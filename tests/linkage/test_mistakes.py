@@ -63,6 +63,13 @@ def test_a_wrong_word_in_a_class(right, wrong, words):
     assert len(str(caught.value)) < 200
 
 
+def test_a_stroke_of_several_turns_without_a_unit_is_remarked():
+    told = "The stroke phi = Stroke(-15, 35) is 7.96 turns, in radians; degrees are written Stroke(-15 * deg, 35 * deg)."
+    for stroke, text in {"Stroke(-15, 35)": told, "Stroke(0, 1080 * deg)": "", "Stroke(0, 12.5)": ""}.items():
+        found = [str(each) for each in made(CRANK.replace("Stroke(0, 360 * deg)", stroke))().verdicts() if " turns, " in each]
+        assert found == [text] * bool(text)
+
+
 def test_a_name_that_is_bound_twice():
     with pytest.raises(DefinitionError, match=r"^Twice: A = Ground\(0.0, 0.0\) stands there already, and A = Ground\(0.1, 0.0\) would"):
 

@@ -708,12 +708,14 @@ class Judge:
         domain = next((each for each in self.places if each.over.name == answer.over), self.places[0])
         way = self.motion if domain.instants is None else domain.motion
         strokes = {name: np.asarray(value) for name, value in answer.strokes.items()}
-        key = "there", *strokes, np.array([*strokes.values(), answer.time], float).tobytes()
-        if domain.instants is not None or not domain.moves_along:
+        going: Mapping[str, FloatArray] | None = None
+        if domain.moves_along and domain.instants is None:
+            corners, _ = legs_of(domain.motion.strokes)
+            going = {name: at[answer.leg + 1] - at[answer.leg] for name, at in corners.items()}
+        key = "there", *strokes, np.array([*strokes.values(), answer.time, *(going or {}).values()], float).tobytes()
+        if going is None:
             return way._once(key, lambda: way._there(strokes, answer.time))
-        corners, _ = legs_of(domain.motion.strokes)
-        going = {name: at[answer.leg + 1] - at[answer.leg] for name, at in corners.items()}
-        return Motion(self.plan, self.designs, strokes, "nan", tangent=going)
+        return way._once(key, lambda: Motion(self.plan, self.designs, strokes, "nan", tangent=going))
 
     def alone_at(self, answer: Answer) -> Judge:
         """Return the judge of the pose and the situation of an answer alone; this one along a path, where forces follow the way."""

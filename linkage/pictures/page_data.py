@@ -30,7 +30,7 @@ from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_sy
 from ..verdict import Verdict
 from .layout import label_free, offsets, props
 from .page_file import EVENTS, MACHINE, START, PageData, page_part, page_text, tight
-from .page_forces import force_arrows, page_situations, situated_requests, situated_rows
+from .page_forces import force_arrows, geared_remark, page_situations, situated_requests, situated_rows
 from .page_judge import LiveQuestions, course_data, rule_key, share_used, unit_data
 from .scene import DrawnMark, Plate, Scene, SlideTrack
 from .shown_values import WHOLE, Limit, as_curve, check_poses, limit_of, named_points, typeset, unit_typeset
@@ -294,6 +294,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         "steps": {name: name_or_pins(plan, name) if each.companions else opening(plan, name) for name, each in plan.points.items()},
         "friction": bool(friction_of_columns(requests.motion, [column for column, _, _ in requests.columns.values()])),
+        "geared": geared_remark(requests.motion),
         **verdicts_shown(requests),
         "judge": judge,
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import Any, NamedTuple, TypeAlias, TypeVar, cast
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from ..errors import LinkageError, UntracedError, unwarned
 from ..frozen import record
+from ..language import language
 from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement, Load
 from ..mechanism import Mechanism
 from ..motion import Judge, LiveText, Motion, Request
@@ -29,7 +31,8 @@ from ..statics import (
     rates_in,
 )
 from ..statics.applied import case_of
-from .shown_values import bodies_shown, centre_beside, centre_of_mass, drawn_together, on_its_line, resultant, short_name
+from ..statics.joint_forces import geared_words
+from .shown_values import bodies_shown, centre_beside, centre_of_mass, drawn_together, on_its_line, resultant, short_name, typeset
 
 AnyRequest = TypeVar("AnyRequest")
 LoadKey: TypeAlias = tuple[str, str, tuple[str, ...]]
@@ -111,6 +114,18 @@ PLACE = ("atX", "atY")
 def load_key(load: Load) -> LoadKey:
     """Return a key by which a load is known, in any situation."""
     return load.element, load.point, load.on
+
+
+def geared_remark(motion: Motion) -> list[str]:
+    """Return that forces between teeth are left out, in English and Russian; nothing for a machine without gears."""
+    poses = motion.moved({name: value[motion.reached][:1] for name, value in motion.strokes.items()})
+    found = list[str]()
+    with suppress(LinkageError), unwarned():
+        solved = [pin_forces(poses)] if any("c" in joint.holds for _, joint in motion.plan.joints) else []
+        for each in ("en", "ru"):
+            with language(each):
+                found += [words for one in solved for words in geared_words(one._found)]
+    return [*map(typeset, found)]
 
 
 def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSituation]) -> list[PageArrow]:

@@ -189,7 +189,7 @@ const unfolded = new Set();
 let toldBefore = "";
 function judge(n = STILL) {
   const found = verdicts(n), key = JSON.stringify([language, system, isChanged(), found]);
-  byId("looked").textContent = `${say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count })}; ${judgedOver()}${data.friction ? `. ${say("Forces and thrusts are without friction; the pressure and the reserve of a cylinder are with it, while it extends.")}` : ""}`;
+  byId("looked").textContent = `${say("looked at {n} values a stroke, {count} poses", { n: known.n, count: known.count })}; ${judgedOver()}${data.friction ? `. ${say("Forces and thrusts are without friction; the pressure and the reserve of a cylinder are with it, while it extends.")}` : ""}${data.geared.length ? `. ${data.geared[language === "ru" ? 1 : 0].replace(/\.$/, "")}` : ""}`;
   if (key === toldBefore) return;
   toldBefore = key;
   list(found);

@@ -458,10 +458,10 @@ class Structure:
         return {names for names, joints in count.items() if self.is_taken({*names}) and joints > len(names)}
 
     def turned_by_gears(self) -> tuple[str, ...]:
-        """Return the cranks whose couples gears give: geared to a body, or to each other on a stroke that is taken over."""
+        """Return the pivots whose couples gears give: of cranks geared to a body, or to each other on a stroke that is taken over."""
         turned = [each for each in self.contacts if "c" in each.joint.holds]
         coupled = [each for each in turned if frozenset(self.followed(each.joint)[0]["c"]) in self.geared]
-        return tuple(dict.fromkeys(each.owner for each in (*coupled, *(gear.joint for gear in self.gears))))
+        return tuple(dict.fromkeys(each.point for each in (*coupled, *(gear.joint for gear in self.gears))))
 
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
         """Yield the drives of a contact: the quantity, the letter of the force that is conjugate to it, and its sign."""

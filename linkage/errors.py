@@ -200,7 +200,7 @@ class StudyError(LinkageError):
 def cited(value: object, most: int = 60, quote: bool = True) -> str:
     """Return a value as a message shows it: on one line, cut where it is long, a text without quotes where it is no quotation."""
     try:
-        text = " ".join(repr(value).split())
+        text = " ".join(repr(cast(Any, value).item() if getattr(value, "ndim", None) == 0 else value).split())
     except (ValueError, RecursionError):
         text = f"an endless {type(value).__name__}"
     text = text if quote or not isinstance(value, str) else text[1:-1]

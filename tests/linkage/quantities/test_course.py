@@ -137,7 +137,7 @@ def test_what_is_no_course_is_refused_in_words():
         (lambda: Course([0.0, np.nan], [0.0, 1.0]), "finite numbers"),
         (lambda: Course([0.0, 10 * mm], [0.0, 1.0]), "was given as a length"),
         (lambda: Course([0.0, 1.0], [0.0, 1.0], "cubic"), "smooth"),
-        (lambda: ramp(0.1, 0.1, speed=1.0), "nothing moves"),
+        (lambda: ramp(np.float64(0.1), 0.1, speed=1.0), "ramp(0.1, 0.1): nothing moves"),
         (lambda: ramp(0.1, 0.2, speed=0.0), "above zero"),
         (lambda: ramp(0.1, 0.2, speed=1.0, jerk=1.0), "give acceleration="),
         (lambda: ramp("a", 0.2, speed=1.0), "finite number"),

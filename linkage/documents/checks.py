@@ -12,7 +12,7 @@ from ..errors import LinkageError, unwarned
 from ..frozen import record
 from ..language import said
 from ..motion import Motion
-from ..quantities import Dimension, Quantity, Stroke, distance
+from ..quantities import Dimension, Quantity, Stroke, angle, distance
 from .content import Mark, Section, TableBlock
 from .run import ReportSubject, largest
 
@@ -87,6 +87,11 @@ def checks(subject: ReportSubject, values: Mapping[str, Any]) -> list[Check]:
 def positions_kept(motion: Motion) -> Iterator[Check]:
     """Yield how well the distances of the placed pins are the lengths that were given, and how well these close their loops."""
     lengths = motion.plan.table.lengths
+    # each link as its given length in the direction that it has
+    given: dict[frozenset[str], Quantity] = dict(lengths)
+    given |= {frozenset(pair): distance(*pair) for pair in pairwise(motion.plan.ground) if frozenset(pair) not in given}
+    loops = [[*pairwise([*loop, loop[0]])] for loop in closed_walks((P, Q) for P, Q in (sorted(pair) for pair in given if len(pair) == 2))]
+    motion._work_out([*given.values(), *(distance(*sorted(pair)) for pair in lengths), *(angle(*side) for loop in loops for side in loop)])
     worst, longest = 0.0 if lengths else np.nan, 0.0
     for pair, quantity in lengths.items():
         length = np.broadcast_to(motion.value(quantity), motion.shape)
@@ -95,16 +100,12 @@ def positions_kept(motion: Motion) -> Iterator[Check]:
     what = said("distances of the pins as placed, against the given lengths: {n} of them", n=len(lengths))
     yield Check(said("lengths kept"), what, worst / (longest or 1.0), EXACT)
 
-    # each link as its given length in the direction that it has
-    given: dict[frozenset[str], Quantity] = dict(lengths)
-    given |= {frozenset(pair): distance(*pair) for pair in pairwise(motion.plan.ground) if frozenset(pair) not in given}
-    loops = [*closed_walks((P, Q) for P, Q in (sorted(pair) for pair in given if len(pair) == 2))]
     worst, longest = 0.0, 0.0
     for loop in loops:
         vectors = []
-        for side in pairwise([*loop, loop[0]]):
-            angle = motion.angle(*side)
-            vectors.append(np.asarray(motion.value(given[frozenset(side)]) * np.array([np.cos(angle), np.sin(angle)])))
+        for side in loop:
+            way = motion.angle(*side)
+            vectors.append(np.asarray(motion.value(given[frozenset(side)]) * np.array([np.cos(way), np.sin(way)])))
         worst = max(worst, largest(np.hypot(*np.sum(vectors, axis=0))))
         longest = max(longest, *(largest(np.hypot(*each)) for each in vectors))
     if loops:

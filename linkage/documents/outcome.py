@@ -28,6 +28,7 @@ from ..motion import (
     most,
     places_text,
     speakers,
+    stroke_search,
     transmission,
 )
 from ..motion.limits import StrokeLimits, angle_text, unstopped_words
@@ -407,7 +408,7 @@ def limits_section(subject: ReportSubject) -> Section:
     places = {name: next((each for each in reached if name in each.running), reached[0]) for name in strokes}
     try:
         with unwarned():
-            limits = [place.motion.limits()[name] for name, place in places.items()]
+            limits = [stroke_search.limits(place.motion, [name])[name] for name, place in places.items()]
     except LinkageError as error:
         return Section(title, (str(error),))
     joints = dict.fromkeys(least.joint for each in limits for least in each.transmission)

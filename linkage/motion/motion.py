@@ -977,9 +977,9 @@ class Motion(Shown):
             return values[index : index + 2]
         return values if isinstance(member, (Arrow, Point)) else values[0]
 
-    def _work_out(self, names: Iterable[str]) -> None:
-        """Work out quantities by name in one pass, kept; each by itself where it is refused or looked at closely."""
-        requests = tuple(Value(self.plan.members[name]) for name in names)
+    def _work_out(self, quantities: Iterable[Reference]) -> None:
+        """Work out quantities in one pass, kept; each by itself where it is refused or looked at closely."""
+        requests = tuple(Value(self._member(each)) for each in quantities)
         with suppress(DefinitionError, SingularError):
             values, look = Evaluation(self._grid, requests).evaluate(among=self.reached.reshape(self._grid.size))
             for place, (what, own) in enumerate(zip(requests, values, strict=True) if self._stroke_shape else ()):
@@ -1134,7 +1134,7 @@ def following_lengths(plan: Plan) -> Kernel:
 class OnePose:
     """The base of traced motions, which replace all poses while a program is made; their numbers have no value yet."""
 
-    def _work_out(self, names: Iterable[str]) -> None:
+    def _work_out(self, quantities: Iterable[Reference]) -> None:
         """Do nothing: a program is read value by value."""
 
 

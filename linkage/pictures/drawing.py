@@ -147,7 +147,7 @@ class MovingPart(ABC):
 def polygon(ax: Axes, level: float, **options: Any) -> Polygon:
     """Return a polygon on the axes in a layer; its corners are set when it is moved."""
     patch = Polygon(np.zeros((1, 2)), zorder=level, **options)
-    ax.add_patch(patch)
+    ax.add_artist(patch)  # add_patch would first look how far it reaches on the sheet, which is as large as the motion
     return patch
 
 
@@ -264,7 +264,7 @@ class CirclePart(MovingPart):
     def __init__(self, ax: Axes, name: str, radius: float, fill: str, edge: str, width: float, level: float) -> None:
         self.points = (name,)
         self.circle = Circle((0, 0), radius, facecolor=fill, edgecolor=edge, linewidth=width, zorder=level)
-        ax.add_patch(self.circle)
+        ax.add_artist(self.circle)
         self.artists = (self.circle,)
 
     def move(self, at: Places) -> None:

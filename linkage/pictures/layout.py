@@ -238,8 +238,9 @@ def own_costs(
         own = anchors[name][pose]
         if not np.isfinite(own).all():
             continue
-        near = points[is_inside(points - own, np.abs(spots).max() + half.max() + 2.0)] - own
-        costs = costs + np.count_nonzero(is_inside(near - spots[:, None], half + 1.0), axis=1) / poses
+        near = (points[is_inside(points - own, np.abs(spots).max() + half.max() + 2.0)] - own).T
+        across, above = (np.abs(places - spots[:, [axis]]) < half[axis] + 1.0 for axis, places in enumerate(near))
+        costs = costs + np.count_nonzero(across & above, axis=1) / poses
         for other, places in anchors.items():
             place = places[pose] - own
             if other != name and np.isfinite(place).all() and np.hypot(*place) > TOGETHER * gap:

@@ -19,8 +19,7 @@ from textwrap import wrap
 from .. import plugins
 from ..errors import DefinitionError, ensure
 from ..plugins import guarded
-from .command import Command
-from .entry import BUILT_IN, PROGRAM
+from .command import BUILT_IN, PROGRAM, Command
 
 OWN = "A machine of your own is written package.module:Class, file.py, file.py:Class, file.toml or file.json."
 

@@ -205,8 +205,8 @@ def plot_command(options: Namespace) -> int:
 
 
 def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
-    """Return the points whose paths are drawn: those named, else those the machine is about, else the last one built."""
-    return tuple(machine.featured().path) or machine.plan.moving[-1:] if names is None else tuple(names)
+    """Return the points whose paths are drawn: those named, else those the machine is about, else its tip."""
+    return tuple(machine.featured().path) or machine.plan.tip if names is None else tuple(names)
 
 
 FILMS = (".gif", ".mp4", ".html")

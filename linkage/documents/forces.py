@@ -197,8 +197,8 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
         if any("bore" in each.numbers for each in subject.machine.plan.of_kind(TwoPoint).values()):
             yield said("No cylinder has a pump or a relief valve: there are no pin forces at the relief pressure.")
         return
-    moving = subject.machine.plan.moving  # a stop holds the last point that the machine is about, else the last that moves
-    point = next((name for name in reversed(subject.machine.featured().path) if name in moving), moving[-1])
+    plan = subject.machine.plan  # a stop holds the last point that the machine is about, else its tip
+    point = next((name for name in reversed(subject.machine.featured().path) if name in plan.moving), plan.tip[-1])
     try:
         with unwarned():
             rows = worst_blocked(subject, point, held)

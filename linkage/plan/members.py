@@ -473,6 +473,17 @@ class Members:
         """The points that are not fixed."""
         return tuple(name for name in self.points if name not in self.ground)
 
+    @cached_property
+    def tip(self) -> tuple[str, ...]:
+        """The point a machine is about that names none: the last free end without a mass, as a centre of gravity has, else the last."""
+        loads = [("mass" in each.numbers, {*needs(each)} & self.points.keys()) for each in self.of_kind(ForceElement).values()]
+        masses = {name for is_mass, names in loads for name in names if is_mass and len(names) == 1}
+        held = {name for is_mass, names in loads for name in names if not is_mass and len(names) > 1}
+        held |= {name for bar in self.cylinders for name in (bar.P, bar.Q)}.union(*map(needs, self.points.values()))
+        of_bodies = Counter(name for body in self.bodies for name in body.points)
+        free = [name for name in self.moving if of_bodies[name] == 1 and name not in masses | held]
+        return (free[-1],) if free else self.moving[-1:]
+
     @property
     def heading(self) -> str:
         """The title as words, for pictures, in the language that is spoken: `MowerLift` is `Mower lift`."""

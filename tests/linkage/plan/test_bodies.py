@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Link, Mechanism, Offset, OnLink, Stroke, Turn, Vector, angle
+from linkage import LEFT, RIGHT, Crank, Dyad, Force, Ground, Link, Mechanism, Offset, OnLink, Stroke, Turn, Vector, Weight, angle
+from linkage.cli.report import traced_points
 from linkage.plan import KinematicChain, merged
 from tests.for_all import for_all
 
@@ -93,3 +94,18 @@ def test_a_crank_is_a_link_of_its_own():
 
     assert names(FourBar().links) == ["AB", "AO", "BQ", "OQ"]
     assert FourBar().gruebler == 1
+
+
+def test_the_tip_of_a_machine_is_no_centre_of_gravity():
+    class Boom(Mechanism):
+        S = Stroke(0.0, 0.1)
+        A, O = Ground(0.0, 0.0), Ground(0.7, 0.0)
+        B = Dyad(A, O, AB=0.6 + S, OB=0.3, side=LEFT)
+        T = OnLink(O, B, OT=1.2)
+        G = OnLink(O, B, OG=0.5)
+        load = Weight(G, mass=100)
+
+    loaded = type("Loaded", (Boom,), {"push": Force("T", (0.0, -1000.0))})
+    alone = type("Alone", (Boom,), {"load": Weight("T", mass=100), "G": OnLink("O", "T", OG=1.2)})
+    assert [each.plan.tip for each in (Boom, loaded, alone)] == [("T",), ("T",), ("G",)]
+    assert traced_points(Boom(), None) == ("T",)

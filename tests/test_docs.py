@@ -24,7 +24,7 @@ DOCS = ROOT / "docs"
 sys.path.insert(0, str(DOCS))
 from made import examples, gallery, searches, written_pages  # noqa: E402
 
-from linkage.cli.command import BUILT_IN, main  # noqa: E402
+from linkage.cli.entry import BUILT_IN, main  # noqa: E402
 from linkage.plugins import COMMANDS, entry_points  # noqa: E402
 from tests.for_all import for_all  # noqa: E402
 from tests.tools.catalogues import messages  # noqa: E402

@@ -19,7 +19,8 @@ from textwrap import wrap
 from .. import plugins
 from ..errors import DefinitionError, ensure
 from ..plugins import guarded
-from .command import BUILT_IN, PROGRAM, Command
+from .command import Command
+from .entry import BUILT_IN, PROGRAM
 
 OWN = "A machine of your own is written package.module:Class, file.py, file.py:Class, file.toml or file.json."
 

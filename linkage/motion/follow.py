@@ -20,10 +20,10 @@ from ..numeric.linear import solve_linear
 from ..plan import Mask, Plan, opening
 from ..program import NO_VALUE, FloatArray
 from ..units import show
-from .grid import TURN
 from .motion import Motion
 from .places import BranchSearch, Places, stroke_numbers, unmet_words
 from .stroke_search import ON_ARRAYS, Clearances
+from .strokes import TURN
 
 TOLERANCE = 1e-12
 """Of the size of what it measures: a target that is missed by no more is met."""

@@ -17,10 +17,11 @@ from ..quantities import numbers_in, real
 from ..units import Amount
 from . import dead_points
 from .evaluation import BulkProgram, Evaluation, keeps_digits, members_behind, other_law_error, require_rates
-from .grid import Grid, at_values, float_array, known_strokes, rate_values, varies
+from .grid import Grid, varies
 from .live import live_source, true_nodes
 from .motion import Motion
 from .requests import Request, RequestLike, all_bound, as_they_run, holds_given, identities_of
+from .strokes import at_values, float_array, known_strokes, rate_values
 
 
 def evaluate(

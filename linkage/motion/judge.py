@@ -32,7 +32,7 @@ from ..vectors import Numbers
 from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, LostPlaces, PerDesign
 from .evaluation import Evaluation
 from .functions import evaluate_bound
-from .grid import Grid, at_values, recalled, strokes_over_axes
+from .grid import Grid, recalled
 from .instants import Instants
 from .limits import LoopMargin, stroke_measure, stroke_unit
 from .measures import (
@@ -61,6 +61,7 @@ from .motion import Motion
 from .over import ALLOWED, Over, Run, with_strokes
 from .requests import Request, SmoothPiece, Trait, identity_of, is_of_force, measured_in, situated, stroke_of
 from .search import Span, assembly_error_at, below_zero, extremum_reached, least_margins, legs_of, strokes_moved
+from .strokes import at_values, strokes_over_axes
 
 Question: TypeAlias = "Measure | Condition"
 Made = TypeVar("Made")

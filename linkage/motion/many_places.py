@@ -20,8 +20,8 @@ from ..numeric.line import Index
 from ..numeric.linear import solved_systems
 from ..plan import Mask, Plan
 from ..program import FloatArray
-from .grid import TURN
 from .places import MET, SCATTERED, Places, StrokeRanges, Target, held_strokes, traced_target
+from .strokes import TURN
 
 MOST_SPARE = 2
 SIDE = {0: {1: 129, 2: 33, 3: 13}, 1: {1: 65, 2: 17, 3: 9}, 2: {1: 33, 2: 13, 3: 7}}

@@ -26,21 +26,7 @@ from ..vectors import Numbers, Vec
 from . import dead_points, stroke_search
 from .dead_points import NOWHERE, Conditioning
 from .evaluation import BulkProgram, Evaluation, examined, guard_masks, other_law_error
-from .grid import (
-    Grid,
-    JoinedTo,
-    Joining,
-    MotionLike,
-    check_any,
-    checked_name,
-    checked_rate,
-    joined_in_order,
-    not_joined,
-    order_of,
-    rate_values,
-    rates_of,
-    to_rounding,
-)
+from .grid import Grid, JoinedTo, Joining, MotionLike, joined_in_order, not_joined, to_rounding
 from .instants import Instants
 from .limits import Limits, no_joint, refuse_at, span_text, stroke_unit, where_words
 from .over import Over, with_strokes
@@ -60,6 +46,7 @@ from .requests import (
     switches_of,
 )
 from .stroke_search import Interruption
+from .strokes import check_any, checked_name, checked_rate, order_of, rate_values, rates_of
 
 Made = TypeVar("Made")
 Kind = TypeVar("Kind", bound=Member)

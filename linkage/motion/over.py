@@ -18,10 +18,11 @@ from ..program import FloatArray
 from ..quantities import Curve, Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, numbers_in, quantity, real
 from ..quantities.course import Course, check_rising, course_of
 from ..units import Amount, amount_or_float, amounts_in, require_measure, show
-from .grid import MotionLike, check_magnitude, strokes_over_axes
+from .grid import MotionLike
 from .instants import Instants
 from .limits import span_text, stroke_unit, way_text
 from .requests import is_of_force
+from .strokes import check_magnitude, strokes_over_axes
 
 OPTIONS = ("only", "cases", "lost", "time")
 """What an `Over` takes beside strokes: no stroke of a machine may be called so."""

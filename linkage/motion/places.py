@@ -25,12 +25,13 @@ from ..program import QUICKEST, FloatArray, Kernel, RunOptions, is_zero
 from ..quantities import Quantity, is_number, numbers_in
 from ..units import amount_or_float, deg, display_unit, mm, require_measure, require_number, show, unit_or_none
 from .dead_points import WARN
-from .grid import TURN, Grid, check_magnitude, checked_name
+from .grid import Grid
 from .limits import stroke_display_unit
 from .measures import measure_of, traced, words_of
 from .motion import Motion
 from .requests import Request, RequestLike
 from .stroke_search import ON_ARRAYS
+from .strokes import TURN, check_magnitude, checked_name
 
 StrokeRanges: TypeAlias = Mapping[str, tuple[float, float]]
 """The ends of strokes, by name [m or rad]."""

@@ -12,7 +12,8 @@ from ..plan import Plan, rate_name
 from ..program import FloatArray, Kernel, Node
 from ..steps import Link
 from .dead_points import NOWHERE
-from .grid import MotionLike, rates_of
+from .grid import MotionLike
+from .strokes import rates_of
 
 ENDLESS = 1e9
 """A pole further away than so many lengths of its body is at infinity: its distance is rounding."""

@@ -27,8 +27,9 @@ from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
 from ..quantities import TAKEN, Arithmetic, Member, Number, PoseCondition, Quantity, Reference, label, name_of, needs, quantity, source_text
 from ..steps import Arrow, Point
 from .dead_points import LEAST, PLACES, PrecisionLeft
-from .grid import MotionLike, checked_name, order_of
+from .grid import MotionLike
 from .limits import no_joint
+from .strokes import checked_name, order_of
 
 
 class Trait(Flag):

@@ -25,12 +25,13 @@ from ..plan import Mask
 from ..program import FloatArray
 from ..units import show, shown_number
 from .answer import OF_VALUE, UNBOUNDED, Answer, PerDesign
-from .grid import Grid, JoinedTo, check_any, joined_in_order, recalled
+from .grid import Grid, JoinedTo, joined_in_order, recalled
 from .instants import Instants
 from .limits import LoopMargin, place_text, places_text, stroke_unit
 from .motion import Motion, require_motion
 from .requests import Request, identity_of
 from .stroke_search import ON_ARRAYS, ROUNDING, Clearances, out_of_reach
+from .strokes import check_any
 
 
 def greatest(motion: Motion, f: Function) -> Answer:

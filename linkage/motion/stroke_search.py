@@ -22,9 +22,10 @@ from ..program import FloatArray, Kernel, Level, RunOptions
 from ..quantities import Distance
 from ..steps import Point
 from ..units import deg
-from .grid import TURN, Grid, MotionLike, check_any, recalled
+from .grid import Grid, MotionLike, recalled
 from .limits import Extreme, Interval, Limits, Open, StrokeLimits, assembly_error, stroke_number, stroke_text, stroke_unit, where_words
 from .requests import transmission
+from .strokes import TURN, check_any
 
 KEPT = 64
 """The designs of a plan whose clear stretches are kept."""

@@ -15,9 +15,10 @@ from ..errors import require, require_type, unwarned
 from ..frozen import immutable
 from ..language import said, with_and
 from ..motion import Motion, Planes, Request, clearance, gap, nearest_gap, nearest_places, pair_at, pairs_without_planes
-from ..motion.gaps import depth_words
-from ..motion.grid import recalled, strokes_over_axes
+from ..motion.grid import recalled
 from ..motion.limits import NO_LENGTH
+from ..motion.planes import depth_words
+from ..motion.strokes import strokes_over_axes
 from ..plan import Plan
 from ..program import FloatArray
 from ..units import show

@@ -17,7 +17,7 @@ from ..errors import DefinitionError, ensure, require
 from ..frozen import immutable, record
 from ..loads import ForceElement, Glyph, Halves, TwoPoint
 from ..motion import Motion, Over, require_motion
-from ..motion.grid import strokes_over_axes
+from ..motion.strokes import strokes_over_axes
 from ..plan import WIDE, member_sides
 from ..program import FloatArray
 from ..quantities import Quantity, Where, is_whole, joined_names, needs

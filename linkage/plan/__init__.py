@@ -18,7 +18,8 @@ from .members import (
 from .missing import WIDE, Mask, failures, missing_words, name_or_pins, negative, opening
 from .part import Part, check_circuits, has_no_axes, with_parts
 from .plan import TRACING, Plan, plan_measure, require_kind, require_kinds
+from .reading import ArrayReading, Reading
 from .table import DesignVariable, Table
-from .trace import NEAR, REGULAR, ArrayReading, Guard, Loop, Nearness, Reading, Trace, rate_name
+from .trace import NEAR, REGULAR, Guard, Loop, Nearness, Trace, rate_name
 
 declare_public(globals())

@@ -11,7 +11,7 @@ from ..steps import Guide, Point, Step
 from ..units import mm
 from ..vectors import FloatArray, Mask
 from .members import Members, plan_measure
-from .trace import ArrayReading
+from .reading import ArrayReading
 
 #: A side so many times longer than the others was given in another unit.
 MISTAKEN = 90.0

@@ -21,7 +21,8 @@ from ..units import Amount, amounts_in, require_measure
 from ..vectors import Scalar
 from .chain import KinematicChain, chain_of
 from .members import Members, named_by, plan_measure
-from .trace import ArrayReading, Reading, Trace
+from .reading import ArrayReading, Reading
+from .trace import Trace
 
 WHOLE = 1e-14
 """A multiple so near to a whole number, for its size, is one."""

@@ -4,7 +4,9 @@ import warnings
 
 from ..star import declare_public
 from .axes import FRAME_AXES, Axes, is_nothing
-from .course import Course, Curve, CurveValue, course_of, ramp
+from .course import Course, course_of, ramp
+from .curve import Curve, CurveValue
+from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned
 from .member import (
     Member,
@@ -29,7 +31,6 @@ from .outputs import Angle, AtPose, Coordinate, Distance, InnerQuantity, Length,
 from .quantity import (
     TAKEN,
     Arithmetic,
-    Dimension,
     Function,
     Negative,
     Number,
@@ -38,9 +39,7 @@ from .quantity import (
     PoseCondition,
     Quantity,
     Ref,
-    Stroke,
     Sum,
-    Variable,
     in_degrees,
     is_number,
     is_whole,

@@ -22,7 +22,8 @@ from ..motion.evaluation import grid_blocks, part_of_input
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .applied import AppliedLoads
-from .equilibrium import CONTRACTS, JointFriction, PressingForces, System, by_iteration, consistent_frictions, joint_frictions
+from .equilibrium import System
+from .friction import CONTRACTS, JointFriction, PressingForces, by_iteration, consistent_frictions, joint_frictions
 from .joints import Contact, Structure
 from .law_requests import TracedMotion, eliminated_forces
 from .poses import FlatPoses

@@ -17,8 +17,9 @@ from ..language import said
 from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, LinkMass, Load, LoadCase, Push, Rate, Rates, StrokeRates, Weight
 from ..motion import Judge, Motion, OnePose, Request, SmoothPiece, require_motion
 from ..motion.dead_points import NOWHERE
-from ..motion.grid import MotionLike, checked_name, order_of
+from ..motion.grid import MotionLike
 from ..motion.requests import NO_TRAIT, Combined, Trait, identity_of, situated, stroke_of
+from ..motion.strokes import checked_name, order_of
 from ..plan import TRACING, ArrayReading, Mask, Plan, Trace
 from ..program import FloatArray, Node, Notes, SparseSystem, Traced, interpret, is_zero, node_of
 from ..quantities import Angle, Distance, Member, Quantity, Reference, as_mapping, name_of
@@ -26,7 +27,8 @@ from ..steps import Arrow, Point
 from ..vectors import Scalar
 from ..verdict import Remark
 from .applied import AppliedElement, AppliedLoads, Parts, element_parts, known_rates, motion_in_case, plan_in_case, refuse_direction
-from .equilibrium import JointFriction, System
+from .equilibrium import System
+from .friction import JointFriction
 from .holding import Levers, levers_of, nearness_of, settled, where_held
 from .joints import Structure
 from .poses import AnyMotion, FlatPoses

@@ -19,7 +19,8 @@ from ..motion.requests import point_ratios
 from ..plan import NEAR, Mask, Plan
 from ..program import FloatArray, elementwise
 from .applied import Anywhere, AppliedLoads, member_title, motion_in_case
-from .equilibrium import JointFriction, LinearForm, PressingForces, Speeds, System, consistent_frictions, joint_frictions
+from .equilibrium import LinearForm, System
+from .friction import JointFriction, PressingForces, Speeds, consistent_frictions, joint_frictions
 from .holding import check_kept, closed_ties, holders_of, sampled
 from .joints import Contact, NotHeldError, Structure, acting_place, force_direction
 from .poses import FlatPoses, quarter_turned

@@ -20,9 +20,10 @@ from ..errors import DefinitionError, StudyError, cited, ensure, is_listed, know
 from ..frozen import immutable
 from ..mechanism import Mechanism
 from ..motion import Constraint, Grid, Leaf, Measure, Motion, Over, Request
-from ..motion.grid import JoinedTo, check_magnitude, joined_in_order, varies
+from ..motion.grid import JoinedTo, joined_in_order, varies
 from ..motion.judge import Domain, SearchRow
 from ..motion.measures import At, CombinedMeasure, FixedNumber, Integral, Least, Most, Worst, check_kinds, strokes_behind, traced, words_of
+from ..motion.strokes import check_magnitude
 from ..numeric.quadrature import PANELS, Quadrature, gauss, quadrature
 from ..plan import Mask, require_kind
 from ..program import Enclosure, FloatArray, Node, enclosures

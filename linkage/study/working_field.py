@@ -22,11 +22,11 @@ from ..language import heading_of, noted, said
 from ..loads import Case, ForceElement, Weight
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, Target
-from ..motion.gaps import Planes, clearance, pairs_of
 from ..motion.judge import Domain
 from ..motion.many_places import EDGE, ManyPlaces, PlacePoses
 from ..motion.measures import words_of
 from ..motion.places import DECLARED, StrokeRanges
+from ..motion.planes import Planes, clearance, pairs_of
 from ..numeric.descent import descended
 from ..numeric.linear import solved_systems
 from ..plan import Plan

@@ -32,7 +32,8 @@ from ..study.space import check_one_design
 from ..study.variants import class_like, variant
 from ..units import require_number, show
 from ..vectors import LEFT, RIGHT, FloatArray, Side
-from .fit import TOLD, TURN, goes_one_way, one_way_round, point_ranges, points_on_circuits, within_turn
+from .defects import TOLD, point_ranges, points_on_circuits
+from .fit import TURN, goes_one_way, one_way_round, within_turn
 from .tasks import check_point, check_radians, table_of
 
 ComplexArray: TypeAlias = npt.NDArray[np.complex128]

@@ -27,8 +27,9 @@ from ..study.survey import check_progress, progress_told
 from ..study.variants import ENDING, is_side
 from ..units import deg, display_unit, factor, mm, show, shown_in
 from ..vectors import FloatArray, Mask, Side
+from .defects import TOLD, change_point_words, in_order, order_words
 from .exact import REGISTERED, FoundMachines
-from .fit import TOLD, Fit, change_point_words, in_order, order_words
+from .fit import Fit
 from .tasks import AskedTasks, PathTask, PoseTask, Task, TaskRows, of_class, squares_near, sum_of_parts, task_named_in, task_of
 
 MOST_ROUNDINGS = 1024

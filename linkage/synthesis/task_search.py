@@ -30,7 +30,8 @@ from ..study.variants import fitted_rows
 from ..units import show
 from . import synthesis, task_work
 from .curve_catalogue import NEIGHBOURS, CurveCatalogue, curve_catalogue
-from .fit import NEAR_CHANGE_POINT, Fit, Timing, branch_words, circuit_words, in_order, order_words
+from .defects import NEAR_CHANGE_POINT, branch_words, circuit_words, in_order, order_words
+from .fit import Fit, Timing
 from .starts import POPULATION, WHOLE_ENOUGH, Likeness, Starts, standing_apart
 from .synthesis import ALIKE, MISSES, NEAR, Miss, Synthesis, SynthesisedMachine, exact_error, is_one_design, misses_of, told_error
 from .task_work import LONG, NUMBERS, RACE, Combination, FitWork, Stages, Through

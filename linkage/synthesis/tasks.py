@@ -16,8 +16,8 @@ from ..errors import DefinitionError, cited, ensure, is_class_of, is_listed, is_
 from ..frozen import frozen, immutable, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import ratio
-from ..motion.grid import TURN, is_in_degrees
 from ..motion.measures import Measure, at, least, measure_of
+from ..motion.strokes import TURN, is_in_degrees
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import angle, numbers_in, ref, x, y

@@ -19,9 +19,10 @@ from linkage.statics import table_text
 
 from ..paper import duty_set
 from . import DRIVE_FIGURES, FIGURES, crane_figure, drive_figure
-from .drive_design import SCHEMES, arm_drive_of, boom_drive_of, design_crane, design_skeleton
+from .drive_design import SCHEMES
 from .drives import BoomDrive, DrivenArm
 from .duty import Duty, arm_bound, boom_bound
+from .flow import arm_drive_of, boom_drive_of, design_crane, design_skeleton
 from .lifted_map import arm_moment, boom_moment, envelope, load_map, strength
 from .machine import Crane
 from .skeleton import CraneSkeleton

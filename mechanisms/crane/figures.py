@@ -20,9 +20,9 @@ from linkage.pictures.poses import draw_over
 from linkage.pictures.sheet import sheet
 
 from ..sheets import CURVES, axis_words, beside, curve, dot, headed, titled
-from .drive_design import arm_drive_of, boom_drive_of
 from .drive_report import Movement, WorstMovement, angle_of, worst_movements
 from .drives import BoomDrive, DrivenArm
+from .flow import arm_drive_of, boom_drive_of
 from .lifted_map import envelope, load_map
 from .machine import Crane
 from .skeleton import POSITIONS, CraneSkeleton

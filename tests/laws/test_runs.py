@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, reserve, thrust
 from linkage import LEFT, Acting, Dyad, Featured, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Support, Weight, least, most, plot
-from linkage.cli.command import main
+from linkage.cli.entry import main
 from linkage.documents.content import TableBlock
 from linkage.documents.outcome import limits_section
 from linkage.documents.reporting import report_document

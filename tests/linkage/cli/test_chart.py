@@ -5,7 +5,7 @@ import csv
 import pytest
 
 from linkage import export, plot, working_field
-from linkage.cli.command import main
+from linkage.cli.entry import main
 from linkage.pictures.chart_text import ChartText
 from linkage.units import g0, unit_system
 from tests.laws.test_working_field import Arm, Digger

@@ -18,7 +18,8 @@ import pytest
 
 from linkage import plugins
 from linkage.cli import Command, listing, main, option
-from linkage.cli import command as commands
+from linkage.cli import command as progress
+from linkage.cli import entry as commands
 from linkage.cli.machines import find
 from linkage.cli.settings import judged_over
 from linkage.errors import did_you_mean
@@ -639,10 +640,10 @@ class Terminal(io.StringIO):
 
 
 def test_progress_is_drawn_on_a_terminal_only(monkeypatch):
-    with commands.progress_bar("working") as report:
+    with progress.progress_bar("working") as report:
         assert report is None
     monkeypatch.setattr(sys, "stderr", Terminal())
-    with commands.progress_bar("working") as report:
+    with progress.progress_bar("working") as report:
         report(1, 2)
     assert "working" in sys.stderr.getvalue()
 

@@ -343,7 +343,7 @@ def test_limits_are_drawn(said, tmp_path):
 TALKS = """
 import sys
 from pathlib import Path
-from linkage.cli import Command, command, main, option
+from linkage.cli import Command, entry, main, option
 
 @Command("talks", "says much, then writes a file", option("-o", "--output"))
 def talks(options):
@@ -352,7 +352,7 @@ def talks(options):
     Path("said.txt").write_text("whole")
     return 0
 
-command.commands_for = lambda arguments: [talks]
+entry.commands_for = lambda arguments: [talks]
 sys.exit(main(["talks", *sys.argv[1:]]))
 """
 

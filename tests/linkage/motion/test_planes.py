@@ -29,7 +29,8 @@ from linkage import (
     x,
 )
 from linkage.files import load, to_toml
-from linkage.motion.gaps import gaps_at, nearest_gap, nearest_places, pairs_of, pairs_without_planes, triangles
+from linkage.motion.gaps import nearest_places, triangles
+from linkage.motion.planes import gaps_at, nearest_gap, pairs_of, pairs_without_planes
 from linkage.numeric import convex_pieces, crosses_itself
 from linkage.vectors import Vec, pick
 from mechanisms.at_work.forwarder import Forwarder

@@ -11,7 +11,8 @@ from linkage import FunctionTask, PathTask, PoseTask, Stroke, deg, mm, synthesis
 from linkage.motion.measures import FixedNumber
 from linkage.study.problem import Problem
 from linkage.study.space import Space
-from linkage.synthesis.fit import Fit, Timing, connected_parts, in_order, lost_stretches, point_ranges, points_on_circuits
+from linkage.synthesis.defects import connected_parts, in_order, lost_stretches, point_ranges, points_on_circuits
+from linkage.synthesis.fit import Fit, Timing
 from mechanisms.classics.four_bar import FourBar
 from tests.for_all import for_all
 from tests.linkage.synthesis.known_machines import runs, task_without_answer

@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import partial, reduce
 from math import nan
 from types import MappingProxyType
-from typing import Any, ClassVar, Self, TypeAlias, cast
+from typing import Any, ClassVar, Self, TypeAlias, Unpack, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,7 +21,22 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, can_be_called, cited, ensure, require, require_type
 from linkage.frozen import immutable
 from linkage.language import said
-from linkage.loads import AT_REST, Acting, ForceElement, Glyph, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads import (
+    AT_REST,
+    Acting,
+    ActingKeywords,
+    ForceElement,
+    Glyph,
+    Loads,
+    Parameter,
+    Poses,
+    Push,
+    Rate,
+    Rates,
+    require_poses,
+    situation_of,
+    takes_situation,
+)
 from linkage.loads.element import Formulas
 from linkage.motion import Answer, Judge, Motion, MotionFunction
 from linkage.plan import require_kinds
@@ -136,7 +151,7 @@ class GasLine(Circuit):
         shut = shut_verdicts(self, judge)
 
         try:
-            low, high = judge.answers(least_and_most(MotionFunction(self.pressure, "pressure")))
+            low, high = judge.answers(least_and_most(MotionFunction(self.line_pressure, "pressure")))
             block = self.accumulators(judge.motion)
         except DefinitionError as error:
             return [Verdict.refused("line", error), *shut]
@@ -162,7 +177,7 @@ class GasLine(Circuit):
 
         def keeps(charge: float) -> bool:
             vessels = [each.recharged(charge) if k == number else each for k, each in enumerate(block.accumulators, 1)]
-            pressures = {each: self.on_block(replace(block, accumulators=vessels)).pressure(place) for each, place in places.items()}
+            pressures = {each: self.on_block(replace(block, accumulators=vessels)).gas_pressure(place) for each, place in places.items()}
             kept = [np.all(keeps_rule(each, charge + block.atmosphere, p + block.atmosphere)) for each, p in pressures.items()]
             return all(map(bool, kept))
 
@@ -201,7 +216,45 @@ class GasLine(Circuit):
 
     # -- over the stroke -----------------------------------------------------------------------------------
 
-    def pressure(self, motion: Any) -> Array:
+    @takes_situation
+    def pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
+        """Return the pressure of the line, shape (...) [Pa gauge]: of a held one the greatest that one of its cylinders asks for.
+
+        Of gas it follows the fluid drawn from it, and is 0 where the line is empty. Of a closed line it is what keeps its oil where it
+        is; where other lines leave it open, the least that balances, not below `make_up`. Below that it runs empty.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+        loads : sequence of ForceElement or str, optional
+            The loads; by default the machine's own.
+        case, direction, rates, accelerations, inertia, acting : optional
+            The situation, as in `Acting`; `acting` gives all in one.
+
+        Returns
+        -------
+        ndarray
+            The pressure [Pa gauge], shape (...).
+        """
+        return self.line_pressure(motion, situation_of("pressure", loads=loads, **situation))
+
+    def oil(self, motion: Motion) -> Array:
+        """Return the oil that has come in since it was filled, per pose, shape (...) [m3]; accumulators beside a pump hold theirs, too.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses; designs first, strokes last.
+
+        Returns
+        -------
+        ndarray
+            The volume [m3], shape (...).
+        """
+        return np.asarray(GasLine.withdrawn(self, motion))
+
+    def gas_pressure(self, motion: Any) -> Array:
         """Return the block's pressure [Pa gauge], shape (...); 0 where the line is empty."""
         charge = in_pascals(self.number(motion, "charge_pressure"), "Charge pressure")
         left = self.withdrawn(motion)
@@ -236,7 +289,7 @@ class GasLine(Circuit):
         """
         rams = self.members(written.plan.members)
         if len(rams) > 1:
-            pressure = written.given(f"p_{self.name}", self.pressure, "bar")
+            pressure = written.given(f"p_{self.name}", self.line_pressure, "bar")
             for ram in rams:
                 area, _ = ram.sides_written(written, np.ones(()))
                 written.carry(ram, -pressure * area if ram.side == "rod" else pressure * area)
@@ -251,7 +304,7 @@ class GasLine(Circuit):
             left = written.line(f"dV_{ram.name}", (written.distance(ram.A, ram.B) - charged) * area * sense, "l")
             pressure = self._pressure_written(written, ram, cast(AccumulatorBlock, block), left)
         else:
-            pressure = written.given(f"p_{ram.name}", self.pressure, "bar")
+            pressure = written.given(f"p_{ram.name}", self.line_pressure, "bar")
         written.carry(ram, -pressure * area if ram.side == "rod" else pressure * area)
 
     def _pressure_written(self, written: Formulas, ram: Ram, block: AccumulatorBlock, left: Array) -> Array:
@@ -357,7 +410,7 @@ class FloatCircuit(GasLine):
         """
         motion = held_in_case(motion, acting)
         is_shut = acting is not None and as_in(motion.plan, self)._is_shut
-        return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.pressure(motion)
+        return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.gas_pressure(motion)
 
     def examine(self, members: NamedMembers, title: str) -> None:
         super().examine(members, title)

@@ -581,29 +581,6 @@ class OilLine(PumpLine, GasLine):
     # -- its pressure and its oil ------------------------------------------------------------------------------
 
     @takes_situation
-    def pressure(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
-        """Return the pressure of the line, shape (...) [Pa gauge]: of a held one the greatest that one of its cylinders asks for.
-
-        Of a closed one it is what keeps its oil where it is; where other lines leave it open, the least that balances, not below
-        `make_up`. Below that it runs empty.
-
-        Parameters
-        ----------
-        motion : Motion
-            The poses; designs first, strokes last.
-        loads : sequence of ForceElement or str, optional
-            The loads; by default the machine's own.
-        case, direction, rates, accelerations, inertia, acting : optional
-            The situation, as in `Acting`; `acting` gives all in one.
-
-        Returns
-        -------
-        ndarray
-            The pressure [Pa gauge], shape (...).
-        """
-        return self.line_pressure(motion, situation_of("pressure", loads=loads, **situation))
-
-    @takes_situation
     def intensified(self, motion: AnyMotion, loads: Loads = None, **situation: Unpack[ActingKeywords]) -> Array:
         """Return the pressure in it, shape (...) [Pa gauge], in a load case that shuts it, while the pump of the other side gives all.
 
@@ -644,7 +621,7 @@ class OilLine(PumpLine, GasLine):
         if kind == "closed" or as_in(motion.plan, self)._is_shut:
             return standing_pressure(self, motion, asked)
         tanks = self.supplies(members, Tank)
-        found = in_pascals(number_set(tanks[0], motion, "pressure"), "Pressure of the tank") if tanks else GasLine.pressure(self, motion)
+        found = in_pascals(number_set(tanks[0], motion, "pressure"), "Pressure of the tank") if tanks else self.gas_pressure(motion)
         return found if acting is None else over_valves(self, cylinder or self.rams(motion)[0], motion, acting, found)
 
     def least(self, motion: Poses) -> Array | float:
@@ -663,19 +640,7 @@ class OilLine(PumpLine, GasLine):
         return number_set(self, motion, "make_up") if self.kind_in(motion.plan.members) == "closed" else 0.0
 
     def oil(self, motion: Motion) -> Array:
-        """Return the oil that has come in since it was filled, per pose, shape (...) [m3]; accumulators beside a pump hold theirs, too.
-
-        Parameters
-        ----------
-        motion : Motion
-            The poses; designs first, strokes last.
-
-        Returns
-        -------
-        ndarray
-            The volume [m3], shape (...).
-        """
-        found = np.asarray(GasLine.withdrawn(self, motion))
+        found = super().oil(motion)
         if self.block is None or self.kind_in(motion.plan.members) != "held":
             return found
         at = {**motion.plan.sketch_strokes, **self.strokes_filled(list(motion.plan.strokes))}

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal, pressure
 from linkage import RIGHT, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, distance, drawn
-from linkage.loads import Weight
+from linkage.loads import LoadCase, Weight
 from linkage.reports.values import dimension_unit
 from linkage.statics import driving_force
 from linkage.units import bar, deg, kN, litre, mm
@@ -56,6 +56,16 @@ def test_the_pressure_follows_the_travel():
     assert_allclose(Carried.line.withdrawn(motion), withdrawn, atol=1e-15)
     assert_allclose(Carried.line.pressure(motion), BLOCK.pressure(60 * bar, withdrawn))
     assert_allclose(Carried.line.pressure(Carried(S0=0.2).at(S=0.2)), 60 * bar)
+    assert_allclose(Carried.line.oil(motion), withdrawn, atol=1e-15)
+
+
+def test_a_load_case_that_shuts_the_line_has_the_pressure_under_its_load():
+    shut = type("Shut", (Carried,), {"parked": LoadCase("parked", scale={"load": 2.0}, shut=["line"])})
+    motion = shut().at(S=[0.05, 0.2])
+    held = shut.line.pressure(motion, case="parked")
+    assert_allclose(held, motion[pressure("ram", case="parked")], rtol=1e-12)
+    assert_allclose(held * Carried.ram.size.area, shut.ram.thrust(motion, case="parked"), rtol=1e-12)
+    assert_allclose(shut.line.pressure(motion), shut.line.line_pressure(motion), rtol=1e-15)
 
 
 def test_the_rod_side_fills_as_the_cylinder_comes_out():

@@ -199,8 +199,8 @@ def closed_ties(plan: Plan) -> tuple[Tie, ...]:
     return plan.made(("closed ties",), lambda _: tuple(tie for tie in ties if tie is not None and not tie.held))
 
 
-def check_kept(motion: AnyMotion) -> None:
-    """Raise DefinitionError where closed ties that give nothing lock a machine: the strokes change their sums at a motion's poses."""
+def check_kept(motion: AnyMotion) -> bool:
+    """Return True; DefinitionError where closed ties that give nothing lock a machine: strokes change their sums at a motion's poses."""
     plan, ties = motion.plan, closed_ties(motion.plan)
     for tie, stroke in product((tie for tie in ties if not tie.gives), plan.strokes):
         with unwarned():
@@ -224,6 +224,7 @@ def check_kept(motion: AnyMotion) -> None:
                 what += f"; {pair} is {its:.4g} on {other.name} and {own:.4g} on {tie.name}"
             remedy = f"Let a step follow it, such as Dyad(U, P, UW={tie.shares[-1].member.name}.length), make the ratios of its areas those"
             raise DefinitionError(f"{plan.title}: {what}. {remedy} of the other line, or open it by a Tank.")
+    return True
 
 
 def check_run(motion: AnyMotion, tie: Tie, run: Reeving, stroke: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from ..language import ENGLISH, current_language, language, said, translated
 from ..loads import PLAIN_CASE, Acting, ForceElement, Load, Push, Rates, TwoPoint
 from ..motion import Motion, require_motion
 from ..motion.evaluation import examined
+from ..motion.grid import recalled
 from ..motion.limits import where_said, where_words
 from ..motion.requests import point_ratios
 from ..plan import NEAR, Mask, Plan
@@ -537,8 +538,16 @@ def held_in_case(motion: Anywhere, acting: Acting | None) -> Anywhere:
     found = motion_in_case(motion, acting)
     refuse_loose(found.plan)
     if any(not tie.gives for tie in closed_ties(found.plan)):
-        found._once(("kept",), lambda: check_kept(sampled(found.plan, found.designs) if isinstance(found, Motion) else found))
+        found._once(("kept",), partial(lines_kept, found))
     return found
+
+
+def lines_kept(motion: Anywhere) -> bool:
+    """Return True where closed lines do not lock a machine, looked at once a design; DefinitionError where they do."""
+    if not isinstance(motion, Motion):
+        return check_kept(motion)
+    poses = sampled(motion.plan, motion.designs)
+    return recalled(poses, "kept", partial(check_kept, poses))
 
 
 def refuse_loose(plan: Plan) -> None:

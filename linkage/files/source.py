@@ -145,7 +145,7 @@ def decoded(name: str, raw: bytes, is_json: bool) -> Source:
         for number, each in enumerate(text.split("\n"), 1):
             if len(each) > TOML_LINE:
                 raise ValueError(f"the line has {len(each)} characters, up to {TOML_LINE} are read (at line {number}, column 1)")
-        return Source(name=name, data=tomllib.loads(text), places=key_lines(text))
+        return Source(name=name, data=tomllib.loads(text), places=dict(reversed([*lines_of_keys(text)])))  # the first line of each
     except RecursionError:
         raise FileError(f"{name}: lists or tables are nested too deeply; a mechanism's file needs three levels.") from None
     except ValueError as error:
@@ -195,14 +195,6 @@ _PART = r"""[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*'"""
 _PATH = re.compile(rf"\s*(\[)?\s*((?:{_PART})(?:\s*\.\s*(?:{_PART}))*)\s*(?(1)\]|=)")
 _SPLIT = re.compile(_PART)
 _LONG = re.compile(r'"""|' + r"'''")
-
-
-def key_lines(text: str) -> Mapping[Key, int]:
-    """Return the first line, counted from 1, of every table and key that stands at the start of one."""
-    found: dict[Key, int] = {}
-    for key, number in lines_of_keys(text):
-        found.setdefault(key, number)
-    return found
 
 
 def lines_of_keys(text: str) -> Iterator[tuple[Key, int]]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from functools import lru_cache, partial, partialmethod
 from math import isnan
-from typing import Any, ClassVar, NamedTuple, Protocol, cast
+from typing import Any, ClassVar, NamedTuple, cast
 
 import numpy as np
 import sympy
@@ -282,21 +282,11 @@ def within_half_a_turn(angle: Term) -> Term:
 # Points and vectors of the symbolic reading: SymPy vectors that obey the plane's algebra, as the rules of steps ask.
 
 
-class VectorReading(Protocol):
-    """The vectors of a place: the listing implements it."""
-
-    def between(self, P: str, Q: str) -> sympy.MatrixExpr:
-        """Return the vector PQ."""
-
-    def link(self, P: str, Q: str) -> Term | None:
-        """Return the length of the link PQ; None without a link."""
-
-
 class Place:
     """A point, a vector or a direction. Its expression is asked for when it is first needed, so that nothing idle is written."""
 
     def __init__(
-        self, written: Callable[[], sympy.MatrixExpr], reading: VectorReading, points: tuple[str, ...] = (), unit: Unit = LENGTH
+        self, written: Callable[[], sympy.MatrixExpr], reading: Listing, points: tuple[str, ...] = (), unit: Unit = LENGTH
     ) -> None:
         self._written, self._reading, self._points, self.unit = written, reading, points, unit
 

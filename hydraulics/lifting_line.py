@@ -680,15 +680,23 @@ class LiftLine(Circuit):
         low, high = self.bounds_of(ram, motion, True, share=share)
         most = np.where(sense < 0.0, -low, high)
 
+        goes_both_ways = ram.goes(motion, beside(0.0)) is None  # over a path in time it goes one way at each pose
+
+        def thrusts(load: Array) -> list[Array]:
+            """Return the thrusts that the machine and a load there need while it grows and while it shrinks."""
+            if not goes_both_ways:
+                return [pump_thrust(motion, ram, beside(load))] * 2
+            return [pump_thrust(motion, ram, beside(load).towards(way)) for way in ("extending", "retracting")]
+
         def carried(load: Array) -> Array:
-            """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
-            if ram.goes(motion, beside(load)) is not None:  # over a path in time it goes one way at each pose
-                return sense * pump_thrust(motion, ram, beside(load))
-            ways = [beside(load).towards(way) for way in ("extending", "retracting")]
-            out, back = (pump_thrust(motion, ram, way) for way in ways)
+            """Return the thrust in the direction in which it lifts."""
+            out, back = thrusts(load)
             return np.where(sense > 0.0, out, -back)
 
-        alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
+        out, back = thrusts(np.zeros(motion.shape))
+        alone, safe = np.where(sense > 0.0, out, -back), np.where(lifts, lever, 1.0)
+        if size.works == "both" and goes_both_ways:  # too heavy alone for one side: what relieves it lifts nothing
+            most = np.where((out > high) | (back < low), np.minimum(most, alone), most)
         found = (most - alone) / safe
         if holders_of(held_in_case(motion, beside(0.0)).plan).changes_shares:
             return only_where(lifts, greatest_kept(lambda load: most - carried(load), most - alone, found))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief, Tank, capacity, reserve
+from hydraulics import Cylinder, HoldingValve, LiftCircuit, OilLine, Pump, Relief, Tank, capacity, reserve, thrust
 from linkage import (
     LEFT,
     RIGHT,
@@ -26,6 +26,7 @@ from linkage import (
     Stroke,
     Weight,
     angle,
+    distance,
     least,
     ramp,
     working_field,
@@ -207,6 +208,29 @@ class Bucket(Mechanism):
     T = OnLink(Q, N, QT=0.547, NQT=180 * deg)
     ram = Cylinder(K, R, bore=40 * mm, rod=25 * mm)
     pump = LiftCircuit(ram, pressure=157 * bar)
+
+
+def test_what_is_too_heavy_alone_lifts_no_load_that_relieves_it():
+    """By hand: a ram that pushes under a beam; a load on its tail relieves the ram, which may then pull with its rod side."""
+
+    class Beam(Mechanism):
+        S = Stroke(0.0, 0.2)
+        O, A = Ground(0.0, 1.0), Ground(1.0, 0.0)
+        B = Dyad(O, A, OB=1.0, AB=0.9 + S, side=LEFT)
+        T, U = OnLink(O, B, OT=3.0), OnLink(O, B, OU=1.0, BOU=180 * deg)
+        load = Weight(T, mass=1696.0)
+        ram = Cylinder(A, B, bore=63 * mm, rod=36 * mm, works="both")
+        pump = LiftCircuit(ram, pressure=160 * bar)
+
+    motion, push = Beam().sweep(5), 160e5 * np.pi / 4 * 0.063**2
+    alone = motion[thrust("ram")]
+    assert alone.min() < push < alone.max()
+    found = Beam.pump.capacity(motion, "U")
+    pull = 160e5 * np.pi / 4 * (0.063**2 - 0.036**2)
+    by_hand = (alone + pull) / (-motion.ratio("U")[1] / motion.ratio(distance("A", "B")))
+    assert_allclose(found, np.where(alone > push, 0.0, by_hand), rtol=1e-9)
+    lighter = Beam(**{"load.mass": 200.0}).sweep(5)
+    assert np.all(Beam.pump.capacity(lighter, "U") > 1e3)
 
 
 def test_a_direction_turns_with_a_body():

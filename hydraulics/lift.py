@@ -18,7 +18,7 @@ import numpy as np
 from linkage.errors import DefinitionError, ensure, known_name, unknown
 from linkage.frozen import immutable
 from linkage.language import noted, said, said_of, with_and
-from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Parameter, situation_of
+from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Parameter, case_in_words, situation_of
 from linkage.motion import Answer, Judge, Motion, PageWords, Question, Span, below_zero, over_time, reached_spans, require_motion
 from linkage.motion.measures import Condition, at, least, most
 from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
@@ -455,10 +455,13 @@ class LiftingCylinder:
                 pump=pump, where=found.place,
             )  # fmt: skip
             return Verdict("lifting", False, text, answer=found)
-        free = ""
+        free, driven = "", list[object]()
         if found.unlimited and self.ram.side != "both":
-            driven = with_and(self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0))) or said("in places")
-            by = {"where": driven, "remedy": self.remedy_both()}
+            driven += self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0)) or [said("in places")]
+        if self.ram.side != "both":
+            driven += [said("all the way {case}", case=case_in_words(case)) for case in self.judge.unlimited_cases(question)]
+        if driven:
+            by = {"where": with_and(driven), "remedy": self.remedy_both()}
             free = said("; the load drives {where}, there it is not limited by this cylinder{remedy}", **by)
         least_text = shown_number(float(found.value), "", ".3f", None if found.ok else 1.0)
         says = said("at {pump} the least reserve is {least}, {where}", pump=pump, least=least_text, where=found.place)
@@ -544,7 +547,13 @@ class LiftingCylinder:
             by = {"force": show(-loose.value, "kN", 4), "where": loose.place, "remedy": said("Let the load press on it.")}
             beside = line_beside(self.ram, other_side(self.ram), circuit, self.judge.plan.members)
             if beside is not None and beside.kind_in(self.judge.plan.members) != "closed":
-                by["remedy"] = said("Let a load case shut that side's line, or let the load press on it.")
+                place, sizes = self.judge.there(loose), self.ram.sized(self.judge.motion)
+                area = sizes.pull_area if other_side(self.ram) != PISTON else sizes.push_area
+                stands = beside.line_pressure(place, self.judge.situation(loose)) - loose.value / area
+                held = show_enough(float(np.squeeze(stands)), self.unit)
+                by["remedy"] = said(
+                    "Let a load case shut this line and that side's, which then has to bear {held}, or let the load press on it.", held=held
+                )
             text = said(
                 "the load pulls at it with up to {force} more than its other side gives, {where}: no oil holds it there. {remedy}", **by
             )

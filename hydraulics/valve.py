@@ -404,14 +404,14 @@ class HoldingValve(OnLines, HasVerdicts):
         members = judge.plan.members
         _, pilot = self.lines(members)
         found, pump = judge.answer(most(valve_request("pilot_pressure", self.name, Acting()))), self.pumped(members)
-        line = judge.answer(most(valve_request("line_pressure", self.name, Acting())))
+        line = float(np.squeeze(self.line_pressure(judge.there(found), acting=judge.situation(found))))
         assert pump is not None
         supply = one_design(pump.supply(judge.motion))
         is_enough = bool(found.value <= supply * (1.0 + 1e-9))
         takes = show(found.value, "bar", 4, None if is_enough else supply)
         says = said(
-            "lowering takes up to {pilot_pressure} in {pilot}, {where}, with up to {line_pressure} in the side that empties",
-            pilot_pressure=takes, pilot=pilot.name, where=found.place, line_pressure=show(line.value, "bar", 4),
+            "lowering takes up to {pilot_pressure} in {pilot}, {where}, with {line_pressure} in the side that empties there",
+            pilot_pressure=takes, pilot=pilot.name, where=found.place, line_pressure=show(line, "bar", 4),
         )  # fmt: skip
         if is_enough:
             return Verdict("pilot", True, said("{says}, of the pump's {supply}.", says=says, supply=show(supply, "bar", 4)), answer=found)

@@ -12,6 +12,7 @@ from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial, reduce
+from itertools import product
 from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
@@ -865,6 +866,16 @@ class Judge:
             rows = tuple(each.rows[0] for each in chosen)
             lacks = lawless, unlimited, time, leg, margin, limit, undefined
             yield place, Candidate(rows, value, where, unbounded, *lacks, seen, design, question)
+
+    def unlimited_cases(self, question: Condition) -> list[str]:
+        """Return the load cases in which nothing limits what a condition bounds, of one design, though in others something does."""
+        self.answers([question])
+        free = dict[str, bool]()
+        for number, one in product(range(len(self.places)), conditions_of([question], self.machine)):
+            for _, each in self.candidates(one, number, ()):
+                is_free = bool(np.isnan(each.value) and each.unlimited > 0.0 and not each.lawless)
+                free[each.situation.case] = free.get(each.situation.case, True) and is_free
+        return [case for case, is_free in free.items() if case and is_free and not all(free.values())]
 
     def lost_of(self, place: Domain, candidate: Candidate) -> LostPlaces:
         """Return the lost places of a candidate of one design."""

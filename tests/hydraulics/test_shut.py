@@ -15,6 +15,7 @@ from linkage import (
     Mechanism,
     OnGuide,
     OnLink,
+    Over,
     Part,
     Stroke,
     Weight,
@@ -176,3 +177,30 @@ def test_what_cannot_be_shut_is_said_with_what_can():
         LoadCase("x", shut="line")
     with pytest.raises(DefinitionError, match="no pump is on the other side"):
         Press.back.intensified(Press().sweep(2), case="parked")
+
+
+class Hung(Mechanism):
+    """A ram upright that a load pulls out; its rod side is on a tank."""
+
+    S = Stroke(0.0, 0.5)
+    O = Ground(0.0, 0.0)
+    rail = Guide(O, angle=90 * deg)
+    P = OnGuide(rail, at=1.0 + S)
+    ram = Cylinder(O, P, bore=120 * mm, rod=85 * mm)
+    load = Force(P, (0.0, 30 * kN))
+    line, back = OilLine(ram.piston_side, Pump(200 * bar)), OilLine(ram.rod_side, Tank(5 * bar))
+
+
+def test_the_remedy_for_a_load_that_pulls_leads_to_no_other_failure():
+    told = next(each for each in Hung().verdicts() if each.rule == "holding line")
+    assert told.ok is False and "shut this line and that side's, which then has to bear 53.24 bar" in told.sentence
+    shut = {"parked": LoadCase("parked", shut=["line", "back"]), "stands": Over(cases=["parked"])}
+    found = {each.rule: each for each in type("Shut", (Hung,), shut)().verdicts()}
+    assert found["holding line"].ok and found["shut back"].ok and "53.24 bar" in found["shut back"].sentence
+
+
+def test_lifting_says_in_which_load_cases_nothing_limits_it():
+    cases = {"load": Force("P", (0.0, -30 * kN)), "up": LoadCase("up", scale={"load": -1.0}), "less": LoadCase("less", scale={"load": 0.5})}
+    found = {each.rule: each.sentence for each in type("Turned", (Hung,), cases)().verdicts()}
+    assert "the load drives all the way in the case up, there it is not limited by this cylinder" in found["lifting line"]
+    assert "in the case less" not in found["lifting line"]

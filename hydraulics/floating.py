@@ -408,6 +408,7 @@ class FloatCircuit(GasLine):
         ndarray
             The pressure [Pa gauge], shape (...).
         """
+        require_poses(motion)
         motion = held_in_case(motion, acting)
         is_shut = acting is not None and as_in(motion.plan, self)._is_shut
         return standing_pressure(self, motion, cast(Acting, acting)) if is_shut else self.gas_pressure(motion)

@@ -616,12 +616,18 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         return self.length_verdicts(judge_of(motion, str(self), unreached=unreached))
 
     def length_verdicts(self, judge: Judge) -> list[Verdict]:
-        """Return the same over all that a judge looks at."""
+        """Return the same over all that a judge looks at, and that no pins come together."""
         closed, stroke = (None if each is None else one_number(np.squeeze(each), "Length") for each in self.closed_and_stroke(judge.motion))
-        if closed is None and stroke is None:
-            return []
         ends = judge.answers(least_and_most(distance(self.A, self.B)))
         low, high = (float(each.value) for each in ends)
+        if low < NO_LENGTH * high:
+            text = said(
+                "{pins} shrinks to nothing, {place}: its pins come together there, and no cylinder is so short; move them.",
+                pins=self._pins, place=ends[0].place,
+            )  # fmt: skip
+            return [Verdict("length", False, text, answer=ends[0])]
+        if closed is None and stroke is None:
+            return []
         if np.isnan(low):
             return [Verdict("length", None, said("nothing is left to judge: every place is unlimited, left out or lost"), answer=ends[0])]
         if closed is not None:
@@ -1851,6 +1857,7 @@ def found_in(members: NamedMembers, reference: Reference, where: str) -> Ram:
     return found
 
 
+NO_LENGTH = 1e-6  # of the greatest length: the pins of a shorter cylinder come together
 TOLERANCE = 1e-9  # m: a length that is met to rounding is met
 MISSING = noted("; {missing} are missing: take a longer stroke")
 TO_ROUNDING = 1e-9

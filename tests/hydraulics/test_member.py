@@ -5,9 +5,23 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Buckling, Cylinder, LiftCircuit, lift_verdicts
-from linkage import RIGHT, Actuator, DefinitionError, Dimension, Dyad, Ground, LoadCase, Mechanism, PinFriction, Stroke, Weight
+from linkage import (
+    RIGHT,
+    Actuator,
+    DefinitionError,
+    Dimension,
+    Dyad,
+    Ground,
+    Guide,
+    LoadCase,
+    Mechanism,
+    OnGuide,
+    PinFriction,
+    Stroke,
+    Weight,
+)
 from linkage.statics import driving_force
-from linkage.units import bar, kN, mm
+from linkage.units import bar, deg, kN, mm
 from tests.for_all import first_daily, for_all
 
 
@@ -91,6 +105,18 @@ def test_stroke_and_closed_length_are_design_variables(design, missing):
     assert bool(verdict) is (missing is None)
     assert missing is None or missing in verdict.sentence
     assert {"lift.stroke": 0.27, "lift.closed": 0.48} | design == {name: Arm(**design)[name] for name in ("lift.stroke", "lift.closed")}
+
+
+@pytest.mark.parametrize("end", [0.3, 0.31, 0.5])
+def test_pins_that_come_together_are_told_wherever_samples_fall(end):
+    class Meet(Mechanism):
+        S = Stroke(-0.3, end)
+        rail, K = Guide((0.0, 0.0), angle=90 * deg), Ground(0.0, 0.1)
+        P = OnGuide(rail, at=S)
+        ram, load = Cylinder(K, P, bore=50 * mm, rod=28 * mm, works="both"), Weight(P, mass=100.0)
+
+    told = next(each for each in Meet().verdicts() if each.rule == "length")
+    assert told.ok is False and "shrinks to nothing, at S = 100.0 mm" in told.sentence
 
 
 def test_lengths_of_a_batch():

@@ -244,12 +244,14 @@ def cylinder(bottom: float, mouth: float, size: float) -> tuple[DrawnLine, ...]:
 
 SINGLE, FREE = 0.95, 0.8
 """The share of its closed length that a rod alone comes out at most, and that each stage of a telescope does."""
+MOST_STAGES = 8
+"""No telescope is drawn with more: where its pins come together their number would grow without end."""
 
 
 def stages(short: float, long: float, fixed: float | None = None) -> int:
     """Return how many stages slide in each other so that a length grows from short to long [m]; `fixed` is how long the first stands."""
     room, way = short if fixed is None else min(fixed, short), long - short
-    return 1 if way <= SINGLE * room or not room > 0.0 else max(2, int(np.ceil(way / (FREE * room) - 1e-9)))
+    return 1 if way <= SINGLE * room or not room > 0.0 else int(np.clip(np.ceil(way / (FREE * room) - 1e-9), 2, MOST_STAGES))
 
 
 def nested_stages(short: float, count: int, size: float) -> Iterator[tuple[int, float, float, float, float]]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
@@ -113,14 +111,9 @@ class Unchanging:
         return hash(self._compared(self))
 
 
-GUARDS = Unchanging.__setattr__, Unchanging.__delattr__
-GUARDS_MADE = "_frozen_get_del_attr"
-"""What writes the guards of a frozen dataclass; below 3.13 Python compiles them for each class."""
-
-
 def refuses_changes(kind: Kind, *methods: Callable[..., object]) -> Kind:
     """Let a class of frozen values refuse changes in words, and have further methods: a class decorator."""
-    for each in (*GUARDS, *methods):
+    for each in (Unchanging.__setattr__, Unchanging.__delattr__, *methods):
         setattr(kind, each.__name__, each)
     return kind
 
@@ -129,14 +122,7 @@ def refuses_changes(kind: Kind, *methods: Callable[..., object]) -> Kind:
 def immutable(kind: Kind) -> Kind:
     """Make a class a frozen dataclass whose objects are told apart by identity, and which refuses changes in words: a class decorator."""
     own_repr = vars(kind).get("__repr__", Unchanging.__repr__)
-    writers = vars(dataclasses)
-    own = writers[GUARDS_MADE]
-    if sys.version_info < (3, 13):
-        writers[GUARDS_MADE] = lambda *given: GUARDS
-    try:
-        dataclass(frozen=True, eq=False, repr=False)(kind)
-    finally:
-        writers[GUARDS_MADE] = own
+    dataclass(frozen=True, eq=False, repr=False)(kind)
     return refuses_changes(kind, own_repr)
 
 

@@ -294,7 +294,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "beside": {name: value for name, value in machine.dimensions.items() if name not in names and value != plan.defaults[name]},
         "steps": {name: name_or_pins(plan, name) if each.companions else opening(plan, name) for name, each in plan.points.items()},
         "friction": bool(friction_of_columns(requests.motion, [column for column, _, _ in requests.columns.values()])),
-        "geared": geared_remark(requests.motion),
+        "geared": geared_remark(plan),
         **verdicts_shown(requests),
         "judge": judge,
     }

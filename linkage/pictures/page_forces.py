@@ -16,6 +16,7 @@ from ..loads import PLAIN, PLAIN_CASE, Acting, Case, ForceElement, Load
 from ..mechanism import Mechanism
 from ..motion import Judge, LiveText, Motion, Request
 from ..motion.requests import bound
+from ..plan import Plan
 from ..program import FloatArray
 from ..reports import Run, at_its_rates, case_shown, request_in_case
 from ..statics import (
@@ -32,6 +33,7 @@ from ..statics import (
 )
 from ..statics.applied import case_of
 from ..statics.joint_forces import geared_words
+from ..statics.solution import structure_of
 from .shown_values import bodies_shown, centre_beside, centre_of_mass, drawn_together, on_its_line, resultant, short_name, typeset
 
 AnyRequest = TypeVar("AnyRequest")
@@ -116,16 +118,13 @@ def load_key(load: Load) -> LoadKey:
     return load.element, load.point, load.on
 
 
-def geared_remark(motion: Motion) -> list[str]:
+def geared_remark(plan: Plan) -> list[str]:
     """Return that forces between teeth are left out, in English and Russian; nothing for a machine without gears."""
-    poses = motion.moved({name: value[motion.reached][:1] for name, value in motion.strokes.items()})
     found = list[str]()
-    with suppress(LinkageError), unwarned():
-        solved = [pin_forces(poses)] if any("c" in joint.holds for _, joint in motion.plan.joints) else []
-        for each in ("en", "ru"):
-            with language(each):
-                found += [words for one in solved for words in geared_words(one._found)]
-    return [*map(typeset, found)]
+    for each in ("en", "ru"):
+        with suppress(LinkageError), language(each):
+            found += map(typeset, geared_words(structure_of(plan)))
+    return found
 
 
 def force_arrows(machine: Mechanism, motion: Motion, situations: Sequence[PageSituation]) -> list[PageArrow]:

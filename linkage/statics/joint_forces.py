@@ -480,14 +480,14 @@ def remarks_on(found: PoseForces) -> Iterator[str]:
                 "weight on it, or take a rod.",
                 name=name, where=where, push=push,
             )  # fmt: skip
-    yield from geared_words(found)
+    yield from geared_words(found.structure)
     yield from tipping_words(motion, applied.acting)
 
 
-def geared_words(found: PoseForces) -> Iterator[str]:
-    """Yield the words for pivots that gears turn, the forces between whose teeth are left out."""
-    if geared := found.structure.turned_by_gears():
-        yield said("{names}: turned by gears, the forces between whose teeth are left out of the pin forces.", names=", ".join(geared))
+def geared_words(structure: Structure) -> Iterator[str]:
+    """Yield the words for pivots and racks that gears move, the forces between whose teeth are left out."""
+    if geared := structure.turned_by_gears():
+        yield said("{names}: moved by gears, the forces between whose teeth are left out of the pin forces.", names=", ".join(geared))
 
 
 def lift_off_words(found: PoseForces) -> Iterator[str]:

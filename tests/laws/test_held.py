@@ -266,8 +266,8 @@ def test_two_claws_on_gears_close_by_one_cylinder_between_them():
 
     found = pin_forces(Claws().at(phi=40 * deg))
     couples = [float(each.couple) for each in found.joints if each.kind == "crank"]
-    assert found.remarks == ("O, M: turned by gears, the forces between whose teeth are left out of the pin forces.",)
-    assert geared_remark(Claws().sweep(3))[0] == found.remarks[0]  # a page says so, too
+    assert found.remarks == ("O, M: moved by gears, the forces between whose teeth are left out of the pin forces.",)
+    assert geared_remark(Claws.plan)[0] == found.remarks[0]  # a page says so, too
     assert_allclose(couples, [-0.5 * 0.5 * np.sin(40 * deg) * 100 * 9.80665] * 2, rtol=1e-12)  # half goes to the other claw
     parallel = type("Parallel", (Mechanism,), {
         "phi": Stroke(20 * deg, 60 * deg), "O": Ground(0, 0), "M": Ground(0.4, 0), "G": Ground(0.1, -0.3),

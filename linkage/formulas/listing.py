@@ -136,6 +136,14 @@ class Term(Operators["Term | float", "Term"]):
             return Term(degrees(float(self.expr)), ANGLE)
         return self
 
+    def as_length(self) -> Term:
+        """Return what stands along a line: an angle times a lever is a length there, and so is a number beside it."""
+        if self.unit != ANGLE:
+            return self
+        parts = (each.as_coeff_Mul() for each in sympy.Add.make_args(self.expr))
+        terms = [sign * (exact_number(float(f"{float(each.args[0]) * deg:.12g}")) if isinstance(each, Deg) else each) for sign, each in parts]
+        return Term(sympy.Add(*terms), LENGTH)
+
     def applied(self, function: str, *operands: Term | float) -> Term:
         """Apply NumPy's function of that name to terms and numbers."""
         return FUNCTIONS[function](*map(term, operands))
@@ -321,7 +329,7 @@ class Place:
         return self._like(lambda: MatMul(-1, self.expr))
 
     def __mul__(self, factor: Term | float) -> Place:
-        scale = term(factor)
+        scale = term(factor).as_length() if self.unit == NUMBER else term(factor)
         return self._like(lambda: self.expr if scale.expr == 1 else MatMul(scale.expr, self.expr), self.unit.times(scale.unit))
 
     def dot(self, other: Place | Vec) -> Term:

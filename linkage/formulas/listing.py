@@ -137,12 +137,12 @@ class Term(Operators["Term | float", "Term"]):
         return self
 
     def as_length(self) -> Term:
-        """Return what stands along a line: an angle times a lever is a length there, and so is a number beside it."""
+        """Return it as it stands along a line: an angle times a lever is a length there, and so is a number beside it."""
         if self.unit != ANGLE:
             return self
+        own = {each: exact_number(float(f"{float(each.args[0]) * deg:.12g}")) for each in self.expr.atoms(Deg)}
         parts = (each.as_coeff_Mul() for each in sympy.Add.make_args(self.expr))
-        terms = [sign * (exact_number(float(f"{float(each.args[0]) * deg:.12g}")) if isinstance(each, Deg) else each) for sign, each in parts]
-        return Term(sympy.Add(*terms), LENGTH)
+        return Term(sympy.Add(*(sign * own.get(each, each) for sign, each in parts)), LENGTH)
 
     def applied(self, function: str, *operands: Term | float) -> Term:
         """Apply NumPy's function of that name to terms and numbers."""

@@ -166,9 +166,7 @@ class Members:
         for each, value in member.strokes.items() if isinstance(member, Drawn) else ():
             if each in self.strokes and isinstance(value, Amount):
                 require_measure(value, self.known_stroke_kind(each), f"{self.title}: {name} = drawn(...): {each}")
-        joints = member.joints() if isinstance(member, Jointed) and member.kind != "load" else ()
-        pushed = [drive.quantity for joint in joints for drive in joint.drives if drive.along == "t"]
-        for length in (*(each for _, each in member.coordinates()), *pushed):
+        for length in (*(each for _, each in member.coordinates()), *(getattr(member, each) for each in member.metres)):
             self._check_terms(length, "length", f"{self.title}: {name} = {member}")
         parts = self.with_parts(name)
         for angle in (each for part in parts for each in part.in_radians()):
@@ -193,7 +191,7 @@ class Members:
     def _check_terms(self, given: Quantity, measures: str, what: str) -> None:
         """Raise DefinitionError where a term of a length or an angle measures something else, or is a stroke that stands for both."""
         for _, term in signed_terms(given, self.members):
-            own = "angle" if isinstance(term, Stroke) and term.name in self.turning else term.measures
+            own = "angle" if isinstance(term, Stroke) and term.name in self.turning else getattr(term, "measures", "")
             if {own, measures} == {"length", "angle"}:
                 parts = ((name, part) for name in self.members if isinstance(term, Stroke) for part in self.with_parts(name))
                 turned = ((name, angle) for name, part in parts for angle in part.in_radians())

@@ -181,6 +181,8 @@ class Member:
 
     radians: ClassVar[tuple[str, ...]] = ()
     """Its attributes that hold the quantities of `in_radians`."""
+    metres: ClassVar[tuple[str, ...]] = ()
+    """Its attributes that hold places along a line [m], of any sign."""
 
     def in_radians(self) -> tuple[Any, ...]:
         """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad.

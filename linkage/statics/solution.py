@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cached_property, partial
+from itertools import combinations
 
 import numpy as np
 
@@ -292,6 +293,11 @@ class Equilibrium:
                 left = np.delete(self.sample, system.first[contact], axis=2)
                 spare += [f"the guide of {contact.point}"] if rank_of(left) == left.shape[1] else []
         what = f"{structure.plan.title} is overconstrained, {count} joint force{'s' * (count > 1)} too many"
+        motion = sampled(structure.plan)
+        for P, Q in (pair for body in structure.bodies if len(body.points) > 2 for pair in combinations(body.points, 2)):
+            first, *others = motion.distance(P, Q).ravel()
+            if any(abs(each - first) > 1e-6 * first for each in others):
+                return f"{what}. {P}{Q} changes, so that an OnLink({P}, {Q}, ...) is on no body; name two points of one."
         found = f"Redundant is one of these, without which it is still held: {', '.join(spare) or 'none alone'}"
         return f'{what}. {found}. Take one out, or ask for split="least squares".'
 

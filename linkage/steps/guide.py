@@ -163,6 +163,7 @@ class OnGuide(Point):
     """
 
     expects = (("guide", "guide"),)
+    metres = ("along",)
 
     def __init__(self, guide: Reference, *, at: Operand) -> None:
         self.guide, self.along = guide, quantity(at)

@@ -243,7 +243,7 @@ class Strut(Mechanism):
 
 def test_forces_that_disagree_with_virtual_work_are_refused():
     machine = Strut()
-    with pytest.raises(DefinitionError, match="overconstrained"):
+    with pytest.raises(DefinitionError, match=r"overconstrained.*AB changes, so that an OnLink\(A, B, ...\) is on no body"):
         pin_forces(machine.sweep(3))
     with pytest.raises(SingularError, match=r"the force of phi is .* by the equilibrium of the joints and .* by virtual work"):
         pin_forces(machine.sweep(3), split="least squares")

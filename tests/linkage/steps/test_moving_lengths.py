@@ -127,10 +127,11 @@ def test_next_to_a_dead_point_it_is_told(name):
     assert_allclose(found, (later - earlier) / 2e-12, rtol=1e-2)
 
 
-def test_the_force_of_a_drive_that_follows_a_point_is_refused_in_words():
-    motion = machine_of("body", "angle")().sweep(3)
-    with pytest.raises(DefinitionError, match=r"a drive follows .*angle\(O, B\), which depends on moving points"):
-        pin_forces(motion)
+def test_the_force_of_a_drive_that_follows_a_point_is_that_of_a_rack_or_refused_in_words():
+    assert pin_forces(machine_of("body", "angle")().sweep(3)).gap < 1e-12
+    for name, words in (("place", r"is geared to bodies, such as at=0\.3"), ("product", "follows .*, which depends on moving points")):
+        with pytest.raises(DefinitionError, match=words):
+            pin_forces(machine_of("body", name)().sweep(3))
 
 
 def test_links_of_a_parts_list_may_follow_a_point():

@@ -201,7 +201,8 @@ def friction_words(subject: ReportSubject) -> str:
                 continue
             if any(values[key] != 1.0 for key in values if key.endswith("efficiency")):
                 losses.append(name)
-            if any(values[key] != 0.0 for key in values if key == "coefficient" or key.endswith("friction")):
+            rubs = [value for key, value in values.items() if key == "coefficient" or key.endswith("friction")]
+            if any(rubs) and not isinstance(each, Support):
                 rubbing.append(name)
     words = said("There is no friction in pins, guides and slots.")
     if rubbing:

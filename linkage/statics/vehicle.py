@@ -19,6 +19,7 @@ from ..errors import DefinitionError, ensure, fits_shape, known_name, require
 from ..frozen import immutable
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, PLAIN, Acting, ActingKeywords, Case, ForceElement, Load, LoadCase, Loads, situation_of, takes_situation
+from ..loads.acting import PLAIN_CASE
 from ..loads.point import LinkMass, Support, Weight
 from ..motion import Answer, Column, Condition, HasVerdicts, Judge, Motion, PageWords, Tabled, at, least, most, require_motion
 from ..motion.dead_points import condition_of_sine
@@ -488,7 +489,7 @@ class AxleLoad(Tabled, HasVerdicts):
 
     def page_words(self, judge: Judge) -> Mapping[str, PageWords]:
         name, weights = self.support.name, [each for each in judge.plan.of_kind(ForceElement).values() if is_on_frame(judge.plan, each)]
-        kept = least(axle_load(name)) / at(axle_load(name, acting=Acting(loads=weights)), **judge.plan.sketch_strokes)  # type: ignore[arg-type]
+        kept = least(axle_load(name)) / at(axle_load(name, acting=Acting(loads=weights, case=PLAIN_CASE)), **judge.plan.sketch_strokes)  # type: ignore[arg-type]
         keeps = noted("least load {value} % of what the vehicle alone puts on it, {place}; at 0 % it lifts off")
         uses = noted("along the ground it uses at most {value} % of its friction, {place}; at 100 % it slips")
         return {

@@ -1,6 +1,7 @@
 """A vehicle on its supports: axle loads against closed forms, lift-off, slopes, tipping, slipping, and what is refused."""
 
 import math
+import re
 from itertools import combinations
 
 import numpy as np
@@ -29,6 +30,7 @@ from linkage import (
 )
 from linkage.formulas import equations
 from linkage.loads import Force, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
+from linkage.pictures.page_judge import share_used
 from linkage.reports import results
 from linkage.statics import Standing
 from linkage.statics.vehicle import load_sentence
@@ -494,3 +496,13 @@ def test_the_frame_of_parts_balances_and_has_equations(machine):
     assert len(written) == 2
     for name, force in written.items():
         assert_allclose(values[f"R_{name}"], force, rtol=1e-9)
+
+
+def test_an_axle_keeps_one_share_of_its_load_on_page_and_in_words():
+    """What the vehicle alone puts on it is that on level ground, also where the least load occurs on a slope."""
+    judge = Digger().judge()
+    told = [each for each in Digger().verdicts() if each.rule.startswith("axle load")]
+    assert len(told) == 2 and all("in the case" in each.sentence for each in told)
+    for each in told:
+        (share,) = re.findall(r"([\d.]+) % of the", each.sentence)
+        assert_allclose(share_used(judge, each, each.answer)[2], 1.0 - float(share) / 100.0, atol=6e-4 * float(share) / 100.0 + 5e-4)

@@ -21,22 +21,8 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, can_be_called, cited, ensure, require, require_type
 from linkage.frozen import immutable
 from linkage.language import said
-from linkage.loads import (
-    AT_REST,
-    Acting,
-    ActingKeywords,
-    ForceElement,
-    Glyph,
-    Loads,
-    Parameter,
-    Poses,
-    Push,
-    Rate,
-    Rates,
-    require_poses,
-    situation_of,
-    takes_situation,
-)
+from linkage.loads import AT_REST, ForceElement, Glyph, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads.acting import Acting, ActingKeywords, Loads, situation_of, takes_situation
 from linkage.loads.element import Formulas
 from linkage.motion import Answer, Judge, Motion, MotionFunction
 from linkage.plan import require_kinds

@@ -560,13 +560,10 @@ class LiftingCylinder:
             return Verdict("holding", False, text, answer=loose)
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
         words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []
-
-        def stood(each: Answer) -> str:
-            return self.show(each.value, None if each.ok else limit)
-
+        pressures = [self.show(each.value, None if each.ok else limit) for each in found]
         parts = [
-            said("the {side} holds up to {pressure}, {where}", side=side, pressure=stood(each), where=each.place)
-            for each, side in zip(found, words, strict=True)
+            said("the {side} holds up to {pressure}, {where}", side=side, pressure=pressure, where=each.place)
+            for each, side, pressure in zip(found, words, pressures, strict=True)
             if each.value > TO_ROUNDING * limit
         ]
         worst = max(found, key=lambda each: each.value)

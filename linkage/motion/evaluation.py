@@ -141,8 +141,8 @@ class Evaluation:
         The arrays are rows of `out` (rows, m, n) where it is given. `among` (m, n) are the poses that are looked at closely.
         """
         grid, program = self.grid, self.program
-        require_rates(grid.plan, program.kernel, {*grid.given, *grid.plan.solved})
-        result = grid.result(program.kernel, out, self.options)
+        require_rates(grid.plan, program.kernel, {*grid.unsolved, *grid.plan.solved})
+        result = grid.kernel_result(program.kernel, out, self.options)
         look = None if program.is_clear(result) else self._settle(result.values, among)
         found = grid.full(result.values)
         if program.angles and (grid.stroke_shape or not grid.joins_itself):

@@ -96,10 +96,10 @@ class Grid:
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), poses (n,) or (m, n)."""
-        return {**self.given, **self.solved.inputs} if self.plan.solved else self.given
+        return {**self.unsolved, **self.solved.inputs} if self.plan.solved else self.unsolved
 
     @cached_property
-    def given(self) -> dict[str, Any]:
+    def unsolved(self) -> dict[str, Any]:
         """The same without what is solved by iteration."""
         return {**(self.designs if self._is_plain else self.flat_designs), **self._flat_of(self._of_poses)}
 
@@ -153,17 +153,17 @@ class Grid:
             row, count = kernel.floats.pose_values(self.designs, self._of_poses), len(kernel.plan.outputs)
             values = np.array(row[:count])
             return values.reshape((count, *self.shape)) if self.shape else values, all([guard > 0.0 for guard in row[count:]])
-        result = self.result(kernel)
+        result = self.kernel_result(kernel)
         return self.full(result.values), result.is_clear
 
-    def result(self, kernel: Kernel, out: FloatArray | None = None, way: RunOptions = QUICKEST) -> Result:
+    def kernel_result(self, kernel: Kernel, out: FloatArray | None = None, way: RunOptions = QUICKEST) -> Result:
         """Return a kernel's result here, shape (outputs, m, n); pins and references are solved only for one that reads them."""
         reads_solved = not self.plan.solved_names.isdisjoint(kernel.plan.input_names[1])
-        return kernel(self.flat if reads_solved else self.given, out, way, self.size)
+        return kernel(self.flat if reads_solved else self.unsolved, out, way, self.size)
 
-    def values(self, kernel: Kernel, way: RunOptions = QUICKEST) -> FloatArray:
+    def kernel_values(self, kernel: Kernel, way: RunOptions = QUICKEST) -> FloatArray:
         """Return a kernel's values here, shape (outputs, ...)."""
-        return self.full(self.result(kernel, way=way).values)
+        return self.full(self.kernel_result(kernel, way=way).values)
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return a kernel's values in the grid's shape."""
@@ -185,7 +185,7 @@ class Grid:
     def angles(self, kernel: Kernel) -> FloatArray:
         """Return the angles of a kernel here [rad], without jumps; kept."""
         if kernel not in self._angles:
-            self._angles[kernel] = self.joining(self, self.values(kernel), kernel)
+            self._angles[kernel] = self.joining(self, self.kernel_values(kernel), kernel)
         return self._angles[kernel]
 
 
@@ -317,7 +317,7 @@ class Angles(NamedTuple):
         """
         if not self.angles:
             return None
-        raw = grid.values(self.kernel, way)
+        raw = grid.kernel_values(self.kernel, way)
         at_end = np.zeros(grid.shape, bool) if reached is None else reached & ~np.isfinite(raw).all(axis=0)
         if at_end.any():
             raw = to_rounding(raw, at_end, self.kernel.plan.outputs, grid.inputs_at(at_end))

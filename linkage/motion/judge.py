@@ -534,7 +534,7 @@ class RowFunction:
         if k in self._bound:
             kernel = self.plan.made_beside(("gaps", self._bound[k].key), lambda twin: gaps_kernel(twin, self._bound[k]))
             if kernel.plan.outputs:
-                mask = (motion._grid.values(kernel) <= 0.0).any(axis=0)
+                mask = (motion._grid.kernel_values(kernel) <= 0.0).any(axis=0)
         elif isinstance(request, Request):
             mask = request.unlimited(motion)
         return np.zeros(motion.shape, bool) if mask is None else np.asarray(np.broadcast_to(mask, motion.shape))

@@ -636,7 +636,7 @@ class Motion(Shown):
         expected = 'rates by name are expected, such as {"px": 0.2, "py": 0.0}'
         require(isinstance(velocities, Mapping) and velocities, f"{title}: velocities", velocities, expected)
         extent = plan.made(("extent",), lambda fork: Kernel([fork.trace.graph.node(fork.trace.extent)]))
-        size = np.asarray(np.sqrt(self._grid.values(extent)[0]))  # the machine's [m]
+        size = np.asarray(np.sqrt(self._grid.kernel_values(extent)[0]))  # the machine's [m]
         names, slopes, wanted, sizes = list[str](), list[FloatArray](), list[FloatArray](), list[FloatArray]()
         for target, rate in dict[Any, object](velocities).items():
             what = bound(plan, target)
@@ -765,7 +765,7 @@ class Motion(Shown):
         names, signs = tuple(name for name, _ in dimensions), np.tile([float(sign) for _, sign in dimensions], what.rows)
         made = plan.made_beside if Trait.OF_LAWS in what.traits else plan.made
         kernel, touched = made(("switches", what.key, names), lambda plan: switches_of(plan, what, names))
-        switches = grid.values(kernel) if touched else ()
+        switches = grid.kernel_values(kernel) if touched else ()
         found = self._looked_at(slope(what, names), f"The gradient of {what.sentence}", what, zip(touched, switches, strict=True))
         rows = found.reshape(len(signs), *self.shape) * signs.reshape(-1, *(1,) * len(self.shape))
         return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
@@ -884,7 +884,7 @@ class Motion(Shown):
         """Place the poses at a dead point, to rounding; refuse or mask those out of reach."""
         failed: Mask = np.asarray(~np.isfinite(self._places).all(axis=0)) if len(self._places) else np.ones(self.shape, bool)
         if self.plan.following:
-            failed |= (self._grid.values(self.plan.made("following", following_lengths)) < 0.0).any(axis=0)
+            failed |= (self._grid.kernel_values(self.plan.made("following", following_lengths)) < 0.0).any(axis=0)
         if not failed.any():
             return
         reading = self._grid.read_at(failed)

@@ -14,7 +14,7 @@ import numpy as np
 from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, UnfitError, unwarned
 from ..frozen import immutable
-from ..language import heading_of, noted, said, translated
+from ..language import heading_of, said
 from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
 from ..plan import Mask, Plan, name_or_pins, opening
 from ..quantities import Member
@@ -308,9 +308,10 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     for name, stroke in judge.plan.strokes.items():
         turns = abs(stroke.end - stroke.start) / (2.0 * np.pi)
         if name in judge.plan.turning and turns > MANY_TURNS and not any(isinstance(end, Amount) for end in (stroke.start, stroke.end)):
-            ends = {end: shown_number(getattr(stroke, end), "") for end in ("start", "end")}
-            told = noted("the stroke {stroke} is {turns} turns, in radians; degrees are written Stroke({start} * deg, {end} * deg).")
-            passed.append(translated(told).format(stroke=f"{name} = {stroke}", turns=shown_number(turns, "", 3), **ends))
+            by = {end: shown_number(getattr(stroke, end), "") for end in ("start", "end")}
+            by |= {"stroke": f"{name} = {stroke}", "turns": shown_number(turns, "", 3)}
+            told = said("the stroke {stroke} is {turns} turns, in radians; degrees are written Stroke({start} * deg, {end} * deg).", **by)
+            passed.append(told)
     return [Verdict("assembly", ok, text, answer=answer), *(Remark(f"{each[0].upper()}{each[1:]}") for each in passed)]
 
 

@@ -465,7 +465,7 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
 
     def asked(each: Motion) -> FloatArray:
         grid = each._grid
-        margins = grid.values(known.kernel, ON_ARRAYS)
+        margins = grid.kernel_values(known.kernel, ON_ARRAYS)
         is_signed = known.is_signed.reshape(-1, *(1,) * len(grid.shape))  # sines of guides are squared, so that all are smooth
         margins = np.where(is_signed, margins * margins, margins)
         return margins if kept is None else np.where(kept(each), margins, np.nan)
@@ -476,7 +476,7 @@ def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) 
             place = {name: value[row] for name, value in least.strokes.items()}
             there = {name: np.reshape(value, (*motion._design_shape, 1)) for name, value in place.items()}
             grid = Grid(motion.plan, motion.designs, there, per_design=True)
-            sizes = grid.values(known.rounding, ON_ARRAYS)[row, ..., 0]
+            sizes = grid.kernel_values(known.rounding, ON_ARRAYS)[row, ..., 0]
             rounding = np.reshape(ROUNDING * np.fmax(np.abs(sizes), 1.0), motion._design_shape)
             hole = np.asarray(least.value[row] < -rounding)[()]
             time = np.broadcast_to(least.time, np.shape(least.value))[row]

@@ -253,7 +253,7 @@ class StrokeLine:
     def kernel_values(self, kernel: Kernel, x: FloatArray) -> FloatArray:
         """Return a kernel's values at values of the stroke, shape (outputs, n)."""
         strokes = {name: x if name == self.name else np.full(x.shape, self.held[name]) for name in self.plan.strokes}
-        return Grid(self.plan, self.motion._grid.flat_designs, strokes).result(kernel, way=ON_ARRAYS).values[:, 0]
+        return Grid(self.plan, self.motion._grid.flat_designs, strokes).kernel_result(kernel, way=ON_ARRAYS).values[:, 0]
 
     def seen(self, x: FloatArray) -> FloatArray:
         """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""

@@ -75,10 +75,10 @@ class SampleProgram:
 
     def __call__(self, grid: Grid) -> tuple[FloatArray, FloatArray]:
         """Return the requests (rows, ...) over a grid, NaN where they have no value, and the derivatives (shares, ...) of one design."""
-        found = grid.result(self.kernel)
+        found = grid.kernel_result(self.kernel)
         is_told = found.is_clear and not (self.may_fail and not np.isfinite(found.values[: self.rows]).all())
         if is_told and self.angles.angles:  # none goes on past half a turn
-            angles = grid.values(self.angles.kernel)
+            angles = grid.kernel_values(self.angles.kernel)
             is_told = bool(np.isfinite(angles).all()) and np.array_equal(grid.joining(grid, angles, self.angles.kernel), angles)
         if is_told:
             values = grid.full(found.values)
@@ -89,7 +89,7 @@ class SampleProgram:
                 return values, np.zeros((0, *grid.shape))
             kernel, followed = self.slopes
             continued = followed.continued(grid)
-            return values, grid.values(kernel) if continued is None else continued
+            return values, grid.kernel_values(kernel) if continued is None else continued
 
 
 class Sampling:

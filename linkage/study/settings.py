@@ -340,7 +340,7 @@ class Search:
         owners, signs = tuple(owner for owner, _ in dimensions), np.array([float(sign) for _, sign in dimensions])
         grid = self.poses.grid_at(machine)
         kernel = BulkProgram.for_requests(plan, [slope(request, owners) for request in self.bound]).kernel
-        found = grid.result(kernel, way=RunOptions("numpy")).values.reshape(len(self.bound), len(owners), *grid.size)
+        found = grid.kernel_result(kernel, way=RunOptions("numpy")).values.reshape(len(self.bound), len(owners), *grid.size)
         columns = [values[..., place] for place, values in enumerate(found)]
         sides = np.array([high - low for low, high in self.box.ranges.values()])
         return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None] * sides)

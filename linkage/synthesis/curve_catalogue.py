@@ -203,7 +203,7 @@ class CurveMeasure:
         strokes = self.start + self.span * np.arange(poses + 1) / poses
         with unwarned(), np.errstate(all="ignore"):
             grid = Grid(plan, designs, {self.stroke: strokes})
-            found = grid.result(curve_kernel(plan, self.of), way=WAY).values
+            found = grid.kernel_result(curve_kernel(plan, self.of), way=WAY).values
             found = np.broadcast_to(found, (len(found), count, poses + 1))
             runs = np.isfinite(found[:3]).all(axis=(0, 2))
             path = found[1] + 1j * found[2]

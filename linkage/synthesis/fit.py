@@ -190,7 +190,7 @@ class Fit:
         if self.plan.solved or not self.n:
             grid = self.grid_at(designs, strokes)
             with unwarned(), np.errstate(all="ignore"):
-                found = np.array(np.broadcast_to(grid.result(kernel, way=WAY).values, (len(kernel.outputs), *shape)))
+                found = np.array(np.broadcast_to(grid.kernel_result(kernel, way=WAY).values, (len(kernel.outputs), *shape)))
         else:  # nothing is to be solved first: the inputs as they are
             found = kernel({**designs, **self.held, self.timing.stroke: strokes}, way=WAY, size=shape).values
         reached = np.isfinite(found[0])

@@ -16,6 +16,7 @@ from sympy.matrices.expressions.matadd import MatAdd
 from sympy.matrices.expressions.matmul import MatMul
 
 from ..errors import DefinitionError
+from ..loads import ForceElement
 from ..motion import Motion, stroke_measure
 from ..plan import Plan
 from ..program.traced import elementwise
@@ -136,13 +137,13 @@ class Term(Operators["Term | float", "Term"]):
             return Term(degrees(float(self.expr)), ANGLE)
         return self
 
-    def as_length(self) -> Term:
-        """Return it as it stands along a line: an angle times a lever is a length there, and so is a number beside it."""
+    def as_measure(self, unit: Unit) -> Term:
+        """Return it as what no angle is, such as a length along a line: an angle times a lever is one, and so is a number beside it."""
         if self.unit != ANGLE:
             return self
         own = {each: exact_number(float(f"{float(each.args[0]) * deg:.12g}")) for each in self.expr.atoms(Deg)}
         parts = (each.as_coeff_Mul() for each in sympy.Add.make_args(self.expr))
-        return Term(sympy.Add(*(sign * own.get(each, each) for sign, each in parts)), LENGTH)
+        return Term(sympy.Add(*(sign * own.get(each, each) for sign, each in parts)), unit)
 
     def applied(self, function: str, *operands: Term | float) -> Term:
         """Apply NumPy's function of that name to terms and numbers."""
@@ -329,7 +330,7 @@ class Place:
         return self._like(lambda: MatMul(-1, self.expr))
 
     def __mul__(self, factor: Term | float) -> Place:
-        scale = term(factor).as_length() if self.unit == NUMBER else term(factor)
+        scale = term(factor).as_measure(LENGTH) if self.unit == NUMBER else term(factor)
         return self._like(lambda: self.expr if scale.expr == 1 else MatMul(scale.expr, self.expr), self.unit.times(scale.unit))
 
     def dot(self, other: Place | Vec) -> Term:
@@ -453,6 +454,8 @@ class Listing(Where):
         self._vectors: dict[object, sympy.MatrixExpr] = {}
         self._terms: dict[str | int, Term] = {}
         self._labels: dict[int, Assignment] = {}
+        given = (each.given(name) for each in plan.of_kind(ForceElement).values() for name in each.numbers)
+        self._of_loads = {name_of(each, is_needed=False) or id(each) for each in given if isinstance(each, (str, Quantity))}
         self._kept: list[Assignment] = []
         self._lengths: dict[str, Term] = {}
 
@@ -572,9 +575,9 @@ class Listing(Where):
             return self.input(named)
         key = named or id(member)
         if not named and key not in self._labels:
-            return self._lengths.get(source_text(member)) or symbolic_value(member, self)
+            return self._lengths.get(source_text(member)) or self.written(member, key)
         if key not in self._terms:
-            found: Term = symbolic_value(member, self)
+            found = self.written(member, key)
             if named or not found.expr.is_Atom:
                 if named:
                     symbol = self.names.quantity(named)
@@ -585,6 +588,11 @@ class Listing(Where):
                 found = Term(symbol, found.unit)
             self._terms[key] = found
         return self._terms[key]
+
+    def written(self, member: Quantity, key: str | int) -> Term:
+        """Return a quantity written out; what a load is given, such as a moment that follows an angle, is no angle."""
+        found: Term = symbolic_value(member, self)
+        return found.as_measure(NUMBER) if key in self._of_loads else found
 
     def scaled(self, arrow: Member, length: Quantity) -> Term:
         """Return the length a vector is scaled to; an expression gets the vector's name: L_AB = L0 + S."""

@@ -6,7 +6,7 @@ import sympy
 from numpy.testing import assert_allclose
 
 import linkage
-from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, angle, deg, x
+from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Guide, Mechanism, Moment, OnGuide, OnLink, Stroke, angle, deg, x
 from linkage.formulas import Tcos, equations
 from linkage.formulas.printing import Latex
 from mechanisms.mower_lift import MowerLift
@@ -195,12 +195,15 @@ def test_both_doors_give_the_same():
     assert str(linkage.equations(MowerLift)) == str(linkage.formulas.equations(MowerLift))
 
 
-def test_a_number_beside_a_lever_times_an_angle_is_a_length():
+def test_a_number_beside_a_factor_times_an_angle_is_a_length_and_of_a_load_in_its_unit():
     class Rack(Mechanism):
         S, r = Stroke(0.0, 0.25), Dimension(0.12)
         O, K, rail = Ground(0, 0), Ground(0.5, -0.3), Guide((-0.5, -0.6), angle=90 * deg)
         A = Dyad(K, O, KA=0.42 + S, OA=0.3, side=RIGHT)
         P, Q = OnGuide(rail, at=0.3 + 0.12 * angle(O, A)), OnGuide(rail, at=r * (angle(O, A) - 20 * deg) - 0.25)
+        M = 8 - r * angle(O, A)
+        spring, named = Moment("O A", M=800 - 600 * angle(O, A)), Moment("O A", M=M)
 
-    text = str(equations(Rack()))
+    text = str(equations(Rack(), forces=True))
+    assert "((-600*angle(OA) + 800)*(O_y - A_y)" in text and "M = -r*angle(OA) + 8\n" in text
     assert "P = rail + (0.12*angle(OA) + 0.3)*u_rail" in text and "Q = rail + (r*(angle(OA) - 20 deg) - 0.25)*u_rail" in text

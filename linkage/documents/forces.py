@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 from math import cos, sin
@@ -19,7 +19,7 @@ from ..plan import Plan
 from ..plan.members import FRAME
 from ..program import FloatArray
 from ..statics import JointForce, PinForces, PinLoad, drive_force, held_in_case, holders_of, judged_table, pin_forces, thrust_from_forces
-from ..units import factor, shown_in, shown_number, unit_sign
+from ..units import factor, show, shown_in, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Section, TableBlock
 from .outcome import amount_text, figures
@@ -52,7 +52,7 @@ def forces_section(subject: ReportSubject) -> Section | None:
     parts = said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit), said("F, {unit}", unit=unit)
     heads = (*joint_heads(), *parts, said("x axis"), said("situation and place"))
     cells = [
-        (*joint_cells(plan, row), *(force_cell(row.force, way(row.angle)) for way in (cos, sin)), force_cell(row.force), row.axis,
+        (*joint_cells(plan, row), *(force_cell(row, way) for way in (cos, sin)), force_cell(row), row.axis,
          f"{translated(row.case)}, {row.movement}, {row.place}")
         for row in rows
     ]  # fmt: skip
@@ -66,7 +66,7 @@ def forces_section(subject: ReportSubject) -> Section | None:
         if isinstance(own, LinkageError):
             blocks.append(said("Load case {case}: {why}", case=words, why=str(own)))
             continue
-        in_case = tuple((*joint_cells(plan, row), force_cell(row.force), row.place, row.movement) for row in own)
+        in_case = tuple((*joint_cells(plan, row), force_cell(row), row.place, row.movement) for row in own)
         heads = (*joint_heads(), parts[-1], said("strokes"), said("motion"))
         blocks.append(TableBlock(said("Largest pin forces, load case {case}", case=words), heads, in_case, "llllrml"))
     return Section(title, (*blocks, *blocked_blocks(subject), *dict.fromkeys(remark for one in found for remark in one.remarks)))
@@ -82,9 +82,11 @@ def joint_cells(plan: Plan, row: PinLoad | JointForce) -> tuple[str, ...]:
     return row.point, translated(row.kind), body_words(plan, row.on), body_words(plan, row.by)
 
 
-def force_cell(force: float, share: float = 1.0) -> str:
-    """Return the size of a force, or of a share of it, as a cell."""
-    return figures(force * share / factor(shown_in("kN"))) if np.isfinite(force) else "∞"
+def force_cell(row: PinLoad, way: Callable[[float], float] | None = None) -> str:
+    """Return the size of a force as a cell, or its part by the cosine or sine of its direction; a couple alone has a size and its unit."""
+    if not row.has_force:
+        return "" if way else show(row.force, "Nm")
+    return figures(row.force * (way(row.angle) if way else 1.0) / factor(shown_in("kN"))) if np.isfinite(row.force) else "∞"
 
 
 def body_words(plan: Plan, name: str) -> str:
@@ -221,7 +223,7 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     for row in rows:
         moves = said("{member} pushes", member=row.cylinder) if row.pushes else said("{member} pulls", member=row.cylinder)
         case = f"{subject.case_words(row.case)}, " if len(subject.judge.cases) > 1 else ""
-        cells.append((*row.cells, force_cell(row.force), moves, row.opens, f"{case}{places_text(row.strokes, plain_units)}"))
+        cells.append((*row.cells, figures(row.force / factor(shown_in("kN"))), moves, row.opens, f"{case}{places_text(row.strokes, plain_units)}"))
     force = said("F, {unit}", unit=unit_sign("kN"))
     heads = (*joint_heads(), force, said("cylinder"), said("first valve"), said("situation and place"))
     yield TableBlock(said("Largest pin forces at the relief pressure, against a stop"), heads, tuple(cells), "llllrllm")

@@ -392,8 +392,8 @@ class JointForce:
 
     @property
     def size(self) -> FloatArray:
-        """The size of the force, shape (...) [N]."""
-        return np.asarray(np.hypot(self.force[0], self.force[1]))
+        """The size of the force, shape (...) [N]; of a joint that transmits none, that of its couple [Nm]."""
+        return np.asarray(np.hypot(self.force[0], self.force[1]) if self.has_force else np.abs(self.couple))
 
     def __str__(self) -> str:
         return f"{self.point} ({self.kind}) on {self.on} from {self.by}"

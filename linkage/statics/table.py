@@ -17,7 +17,7 @@ from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
 from ..motion.limits import places_text, timed_texts
 from ..quantities import body_name
 from ..shown import text_columns
-from ..units import shown_number, unit_sign
+from ..units import show, shown_number, unit_sign
 from .force_requests import pin_force
 from .joint_forces import JointForce, PinForces, joint_forces
 
@@ -28,6 +28,8 @@ Place: TypeAlias = tuple[np.intp | int, ...]
 @record
 class PinLoad:
     """The largest force of one joint: its size [N], its direction in the body's own axes [rad], and where it occurs.
+
+    Of a joint without one, such as a crank's drive or a gear, it is the largest couple [Nm], the angle is 0, and not `has_force`.
 
     The body's x axis goes from the first of its `axis` points to the second; for the frame it is the frame's own. `drive` is the stroke
     that moves, `over` the `Over` in which it occurs, "" where there is one only; `answer` is what the judge says of it.
@@ -49,6 +51,7 @@ class PinLoad:
     drive: str = ""
     over: str = ""
     answer: Answer | None = None
+    has_force: bool = True
 
     @property
     def place(self) -> str:
@@ -68,8 +71,10 @@ class PinLoad:
     @property
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the units and the language that are chosen."""
-        force = shown_number(self.force, "kN", 3 if SMALL < self.force < 100.0 else ".3f")
-        angle = shown_number(self.angle, "deg", "z.1f")
+        force, angle = show(self.force, "Nm"), ""
+        if self.has_force:
+            force = shown_number(self.force, "kN", 3 if SMALL < self.force < 100.0 else ".3f")
+            angle = shown_number(self.angle, "deg", "z.1f")
         kind = translated(WORDS.get(self.kind, self.kind))
         return self.point, kind, self.on, self.by, force, angle, self.axis, self.place, self.case, self.movement
 
@@ -157,8 +162,9 @@ def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
         if pose is None:
             raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
         there = joint_forces(pose, Acting(judge.acting.loads, judge.acting.case))
-        joints = {joint_key(each): each for each in there.joints if each.has_force}
-        answers = judge.answers([most(pin_force(point, on, by=by)) for point, on, by, _ in joints])
+        joints = {joint_key(each): each.has_force for each in there.joints}
+        sizes = (pin_force(key[0], key[1], by=key[2]) if has else abs(pin_force(*key[:2], "couple", by=key[2])) for key, has in joints.items())
+        answers = judge.answers([*map(most, sizes)])
         known = dict[Hashable, PinForces]()
         rows = [judged_row(judge, key, answer, known) for key, answer in zip(joints, answers, strict=True)]
     return tuple(row for row in rows if row is not None)
@@ -191,11 +197,11 @@ def joint_key(joint: JointForce | PinLoad) -> tuple[str, str, str, str]:
 
 def largest_loads(result: PinForces) -> list[PinLoad]:
     """Return the largest force of each joint of a result."""
-    joints = [joint for joint in result.joints if joint.has_force]
+    joints = result.joints
     if not joints:
         return []
     try:
-        found = greatest(result.motion, lambda at: np.stack([joint.size for joint in result.again(at).joints if joint.has_force]))
+        found = greatest(result.motion, lambda at: np.stack([joint.size for joint in result.again(at).joints]))
     except DefinitionError:  # arrays over the poses, at which alone they are known
         rows, designs = [], len(result.motion._design_shape)
         for joint in joints:
@@ -219,14 +225,14 @@ def largest_loads(result: PinForces) -> list[PinLoad]:
 def pin_load(result: PinForces, joint: JointForce, force: float, place: Place, design: Place, strokes: Mapping[str, float]) -> PinLoad:
     """Return a joint's row for its largest force, at a place among the poses of a result; its direction in the body's own axes."""
     angle = float(np.arctan2(joint.force[1][place], joint.force[0][place]))
-    if joint.axis is not None:
+    if joint.axis is not None and joint.has_force:
         (px, py), (qx, qy) = (result.motion[point] for point in joint.axis)
         angle -= float(np.arctan2((qy - py)[place], (qx - px)[place]))
     within = (angle + pi) % (2.0 * pi) - pi
     angle = within + 2.0 * pi if within < -pi + 1e-9 else within  # half a turn to within rounding is pi
     axis, units = body_name(joint.axis or ("x",)), {name: stroke_unit(result.motion.plan, name) for name in strokes}
     where = tuple(map(int, design))
-    return PinLoad(*joint_key(joint), force, angle, axis, strokes, where, result.case, result.direction, units)
+    return PinLoad(*joint_key(joint), force, angle, axis, strokes, where, result.case, result.direction, units, has_force=joint.has_force)
 
 
 def table_text(rows: Iterable[PinLoad]) -> str:

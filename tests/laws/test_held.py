@@ -253,7 +253,7 @@ def test_gears_carry_what_turns_with_a_cylinder_and_do_no_work(seed):
         assert_allclose(whole.evaluate([thrust(ram)], **strokes)[0], by_hand, rtol=1e-6)
 
 
-def test_two_claws_on_gears_close_by_one_cylinder_between_them():
+def test_two_claws_on_gears_close_by_one_cylinder_between_them(tmp_path):
     class Claws(Mechanism):
         """Two claws."""
 
@@ -269,6 +269,9 @@ def test_two_claws_on_gears_close_by_one_cylinder_between_them():
     assert found.remarks == ("O, M: moved by gears, the forces between whose teeth are left out of the pin forces.",)
     assert geared_remark(Claws.plan)[0] == found.remarks[0]  # a page says so, too
     assert_allclose(couples, [-0.5 * 0.5 * np.sin(40 * deg) * 100 * 9.80665] * 2, rtol=1e-12)  # half goes to the other claw
+    for rows in (max_table(Claws()), max_table(pin_forces(Claws().sweep(5)))):  # the largest couple of each stands in the table
+        assert_allclose([row.force for row in rows if not row.has_force], [0.25 * np.sin(60 * deg) * 100 * 9.80665] * 2, rtol=1e-9)
+    assert "| 0.21232 kNm |" in report(Claws(), tmp_path / "claws.md").read_text()
     parallel = type("Parallel", (Mechanism,), {
         "phi": Stroke(20 * deg, 60 * deg), "O": Ground(0, 0), "M": Ground(0.4, 0), "G": Ground(0.1, -0.3),
         "A": Crank("O", OA=0.3, angle="phi"), "B": Crank("M", MB=0.3, angle="phi"), "rod": Link("A B"),

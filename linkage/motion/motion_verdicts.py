@@ -29,7 +29,7 @@ from .motion import Motion, require_motion
 from .over import Over
 from .requests import transmission
 from .search import least_margins
-from .stroke_search import out_of_reach
+from .stroke_search import StrokeLine, out_of_reach
 from .table import from_above, speakers
 
 POOR = 40.0 * deg
@@ -223,9 +223,9 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
             found.setdefault(("", "dead points"), []).append(Verdict("dead points", False if pushed else None, text))
         moved = [name for name, (low, high) in spans.items() if low < high or len(spans) == 1]
         for name, limits in stroke_search.limits(place.motion, moved).items():
-            for is_behind, away, text in nearest_dead_points(place.plan, limits, spans[name]):
+            for is_behind, away, text in nearest_dead_points(place.motion, limits, spans[name]):
                 nearest[name, is_behind] = min((away, text), nearest.get((name, is_behind), (away, text)))
-            for each in dead_point_verdicts(limits, spans[name], is_pushed(judge, name)):
+            for each in dead_point_verdicts(place.motion, limits, spans[name], is_pushed(judge, name)):
                 if not (together and each.rule == "dead points"):
                     found.setdefault((name, each.rule), []).append(each)
     told = [each for known in found.values() for each in dict.fromkeys(known)]
@@ -321,7 +321,7 @@ SCARCELY = 0.01
 """Of a declared stroke: where no more of it runs, a unit may be missing there."""
 
 
-def nearest_dead_points(plan: Plan, limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:
+def nearest_dead_points(motion: Motion, limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:
     """Yield the nearest dead points before and behind the part of a stroke that runs: which of both, how far away, and that in words."""
     low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
     before = max((each for each in limits.dead_points if each[0] <= low), default=None)
@@ -330,12 +330,12 @@ def nearest_dead_points(plan: Plan, limits: StrokeLimits, span: tuple[float, flo
         if each is not None:
             value, stop = each
             away = max(low - value, value - high)
-            step = said("of {step}", step=opening(plan, stop) if stop in plan.members else stop)
+            step = said("of {step}", step=opening(motion.plan, stop) if stop in motion.plan.members else stop)
             distance = said("{distance} beyond it", distance=show(away, limits.shown_unit, 3))
-            yield bool(is_behind), away, f"{place_of(limits, value, step)}, {distance}"
+            yield bool(is_behind), away, f"{place_of(motion, limits, value, stop, step)}, {distance}"
 
 
-def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:
+def dead_point_verdicts(motion: Motion, limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:
     """Yield the stops and turns of a motion along one stroke, within the part that runs.
 
     At an end it is a fault where it is `pushed` by a cylinder, which cannot start from there.
@@ -343,20 +343,20 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
     low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
     near = NEAR_END * (high - low)
     points = {each: max(low - each[0], each[0] - high) for each in limits.dead_points}
-    inside = "; ".join(place_of(limits, *each) for each, away in points.items() if away < -near)
-    at_end = "; ".join(place_of(limits, *each) for each, away in points.items() if abs(away) <= near)
+    inside = "; ".join(place_of(motion, limits, *each) for each, away in points.items() if away < -near)
+    at_end = "; ".join(place_of(motion, limits, *each) for each, away in points.items() if abs(away) <= near)
     passed = said("{places}, within the stroke: no drive passes there. Shorten the stroke or change a length.", places=inside)
     begun = said("{places}, where the stroke ends: no cylinder starts from there. Shorten the stroke or change a length.", places=at_end)
     if inside or (at_end and pushed):
         yield Verdict("dead points", False, " ".join([passed] * bool(inside) + [begun] * bool(at_end and pushed)))
     elif at_end:
         yield Verdict("dead points", None, said("{places}, where the stroke ends: no ratio and no force has a value there.", places=at_end))
-    crossing = [place_of(limits, value, step) for value, step in limits.change_points if low - near <= value <= high + near]
+    crossing = [place_of(motion, limits, value, step) for value, step in limits.change_points if low - near <= value <= high + near]
     if crossing:
         places = "; ".join(crossing)
         text = said("branches cross: {places}; there the motion may go on either way. Change a length, or guide it.", places=places)
         yield Verdict("change points", False, text)
-    still = [place_of(limits, value, name) for value, name in limits.cylinder_dead_points if low - near <= value <= high + near]
+    still = [place_of(motion, limits, value, name) for value, name in limits.cylinder_dead_points if low - near <= value <= high + near]
     if still:
         text = said(
             "its length stands still: {places}; there its thrust moves nothing. Move its pins, or keep away from there.",
@@ -365,9 +365,16 @@ def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float], pushed:
         yield Verdict("cylinder's dead point", False, text)
 
 
-def place_of(limits: StrokeLimits, value: float, what: str) -> str:
-    """Return a place along a stroke [m or rad] in words: `B at S = 123.4 mm`."""
-    return said("{what} at {stroke} = {value}", what=what, stroke=limits.stroke, value=place_text(value, limits.unit))
+def place_of(motion: Motion, limits: StrokeLimits, value: float, name: str, words: str = "") -> str:
+    """Return a place along a stroke [m or rad] in words: `B at S = 123.4 mm`, with those of the other strokes that change it."""
+    plan, held, others = motion.plan, {each: at for each, at, _ in limits.held}, list[str]()
+    steps = {*name.split(", ")} & plan.members.keys() or {*plan.points}
+    for other, at, unit in limits.held:
+        ends = (plan.strokes[other].start, plan.strokes[other].end) if other in plan.reaches(*steps) else ()
+        if not all(StrokeLine(motion, limits.stroke, {**held, other: end}).is_in_line(value, steps) for end in ends):
+            others.append(f"{other} = {place_text(at, unit)}")
+    place = said("{what} at {stroke} = {value}", what=words or name, stroke=limits.stroke, value=place_text(value, limits.unit))
+    return place + (said(", with {strokes} held", strokes=", ".join(others)) if others else "")
 
 
 def transmissions(judge: Judge) -> dict[str, Measure]:

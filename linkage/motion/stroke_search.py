@@ -8,7 +8,7 @@ the way.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -132,16 +132,18 @@ class StrokeLine:
             found[sought] = np.transpose(last_holding(self.is_reached, *found[sought].T))
         ends = list[tuple[float, str]]()
         for (inside, _), (last, beyond) in zip(pairs, found, strict=True):
-            failing = ""
+            failing = list[str]()
             if not np.isnan(beyond):
-                there = self.motion_at(np.array([beyond]))
-                failing = next((name for name, mask in failures(self.plan, there._reading, there.shape) if mask.any()), "")
-            ends.append((self.clear_end(inside, float(last), failing), name_or_pins(self.plan, failing) if failing else ""))
+                there = self.motion_at(beyond + np.array([0.0, before * np.sign(beyond - inside)]))  # to rounding several may end there
+                failing = [name for name, _ in failures(self.plan, there._reading, there.shape)]
+                failing = [name for name in failing if self.plan.reaches(name).isdisjoint({*failing} - {name})] or failing[:1]
+            stops = dict.fromkeys(name_or_pins(self.plan, name) for name in failing)
+            ends.append((self.clear_end(inside, float(last), failing), ", ".join(stops)))
         return ends
 
-    def clear_end(self, inside: float, last: float, step: str) -> float:
-        """Return the last stroke at which the links of a step meet by themselves, which rounding does up to `last`."""
-        rows = [row for row, loop in enumerate(self.clearances.loops) if loop.step == step and loop.kind == "links"]
+    def clear_end(self, inside: float, last: float, steps: Sequence[str]) -> float:
+        """Return the last stroke at which the links of some steps meet by themselves, which rounding does up to `last`."""
+        rows = [row for row, loop in enumerate(self.clearances.loops) if loop.step in steps and loop.kind == "links"]
 
         def is_clear(at: FloatArray) -> Mask:
             return np.reshape((self.seen(np.ravel(at))[rows] >= 0.0).all(axis=0), np.shape(at))
@@ -149,6 +151,11 @@ class StrokeLine:
         if not rows or is_clear(np.array(last)) or not is_clear(np.array(inside)):
             return last
         return float(last_holding(is_clear, inside, last)[0])
+
+    def is_in_line(self, value: float, steps: Collection[str]) -> bool:
+        """Return whether each of some steps has come to its dead point at a value of the stroke."""
+        seen = zip(self.clearances.loops, self.seen(np.array([value])), strict=True)
+        return set(steps) <= {loop.step for loop, clear in seen if abs(clear.item()) <= TOUCH}
 
     def is_reached(self, at: FloatArray) -> Mask:
         """Return the mask of strokes that are reached, of any shape."""

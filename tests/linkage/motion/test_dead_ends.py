@@ -23,6 +23,7 @@ from linkage import (
     least,
     most,
     reachable,
+    ref,
     x,
     y,
 )
@@ -94,6 +95,22 @@ def test_one_that_ends_beyond_its_dead_point_is_told_as_before(off):
 def test_one_that_ends_well_before_its_dead_point_is_told_as_before():
     (verdict,) = told(lever(0.5, 0.79, 0.4, 0.4, 0.0)())
     assert verdict.ok and "none within the stroke; the nearest: of B = Dyad(A, O) at S = 300.0 mm, 10 mm beyond it" in verdict
+
+
+def test_all_that_ends_at_a_dead_point_is_named_with_the_strokes_that_move_it():
+    class Levers(lever(0.5, 0.75, 0.4, 0.4, 0.0)):  # the same triangle again, and one on a base that a crank moves
+        psi, E, K = Stroke(0.0, 1.0), Ground(2, 0), Ground(2, -0.4)
+        C = Dyad(K, E, KC=0.5 + ref("S"), EC=0.4, side=RIGHT)
+        D = Crank("O", OD=0.5, angle=psi)
+        F = Dyad("D", "A", DF=0.66 + ref("S"), AF=0.3, side=RIGHT)
+        T = OnLink("B", "C", BT=0.1)
+
+    (verdict,) = told(Levers())
+    assert "of F = Dyad(D, A) at S = " in verdict and ", with psi = 0.00 deg held" in verdict
+    limits = Levers().at(S=0.1, psi=1.0).limits()["S"]
+    assert limits.dead_points[-1] == (pytest.approx(0.3), "B, C")
+    (verdict,) = told(type("Own", (Levers,), {"D": None, "F": None, "psi": None})())
+    assert "of B, C at S = 300.0 mm, 50 mm beyond it" in verdict and "held" not in verdict
 
 
 @pytest.mark.slow

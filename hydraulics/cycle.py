@@ -48,6 +48,8 @@ SMOOTH = 1e-11
 """Of the largest value: the last coefficients of what is a polynomial to rounding."""
 PLATEAU = 1e-10
 """Of the highest value: what is no lower is as high, and the first such instant is told."""
+SLOW = "acting= has inertia=True, but a pump's demands leave inertia out; leave it out, pressure(cylinder) of a motion in time counts it."
+"""Why a pump's demands are not worked out where inertia is insisted on."""
 SHORTEST = 1e-9
 """s; no stretch is divided any finer."""
 
@@ -113,7 +115,7 @@ class PumpCycle:
     events : sequence of PumpEvent, optional
         What happened in a run.
     is_slow : bool, optional
-        Whether masses are accelerated, whose inertia is left out; the verdict says so.
+        Whether there are masses, whose inertia is left out; the verdict says so.
 
     Attributes
     ----------
@@ -349,16 +351,8 @@ def cycle_over(pump: ForceElement, place: Any, situation: Acting, label: str) ->
     consumers = Consumers(place.plan, place.designs, pump, situation, start)
     there = Motion(place.plan, place.designs, {name: np.asarray(value) for name, value in start.items()}, "nan")
     limits, names = limits_of(pump, consumers, there), [line.name for line in consumers.lines]
-    stretches, is_slow = given_stretches(consumers, instants, limits), accelerates_masses(place.plan, instants)
-    return PumpCycle(pump.name or "supply", names, (), stretches, limits, label, is_slow=is_slow)
-
-
-def accelerates_masses(plan: Plan, instants: Instants) -> bool:
-    """Return whether a path in time accelerates masses, whose inertia the demands on a pump leave out."""
-    if not has_masses(plan):
-        return False
-    within = instants.at_times(instants.breaks[:-1] + np.diff(instants.breaks) / 3.0)
-    return any(map(np.any, within.accelerations.values()))
+    stretches = given_stretches(consumers, instants, limits)
+    return PumpCycle(pump.name or "supply", names, (), stretches, limits, label, is_slow=has_masses(place.plan))
 
 
 def given_stretches(consumers: Consumers, instants: Instants, limits: PumpLimits) -> list[Stretch]:

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Literal, cast
 import numpy as np
 
 from linkage import Mechanism, Remark, Verdict
-from linkage.errors import DefinitionError, known_name, one_word, require_type
+from linkage.errors import DefinitionError, ensure, known_name, one_word, require_type
 from linkage.frozen import immutable
 from linkage.language import noted, said
 from linkage.loads import Acting, Parameter
@@ -21,7 +21,7 @@ from linkage.motion import HasVerdicts, Judge, Motion, from_above, require_motio
 from linkage.quantities import NamedMembers, Reference, is_member_or_name, name_of, needs, of_kind
 
 from .consumers import in_plan, lines_on
-from .cycle import PumpCycle, cycles_over, is_shared, judged_cycles, pump_verdicts
+from .cycle import SLOW, PumpCycle, cycles_over, is_shared, judged_cycles, pump_verdicts
 from .cylinders import OnLines, Ram, circuits_among
 from .inputs import EFFICIENCIES, PUMPED, check_pressures, follows
 from .sharing import SHARINGS
@@ -188,6 +188,7 @@ class Pump(Supply):
             what = f"{motion.plan.title}: {self.name or 'a pump'}.check(motion): this motion has no time of its own"
             raise DefinitionError(f"{what}; sweep the machine over a path in time, Over.path(time=[...], ...).")
         judge, own = Judge(motion.plan, motion.designs, [motion], acting), in_plan(self, motion.plan)
+        ensure(not judge.acting.inertia, f"{motion.plan.title}: {self.name or 'a pump'}.check: {SLOW}")
         return max((each for place in judge.places for each in cycles_over(own, place, judge.acting)), key=lambda each: each.stretch)
 
     def run(

@@ -24,19 +24,20 @@ from linkage.motion import Instants, Motion, Over
 from linkage.numeric import last_holding
 from linkage.plan import Mask, Plan, require_kinds
 from linkage.quantities import Course, Reference, as_mapping, is_number, name_of
+from linkage.statics import has_masses
 from linkage.units import require_measure, require_number, show
 
 from .consumers import AT_BORDER, Consumers, Consumption, cylinder_named, in_plan, refuse_unpushed
 from .cycle import (
     DEGREE,
     SHORTEST,
+    SLOW,
     TO_COEFFICIENTS,
     TO_INTEGRALS,
     PumpCycle,
     PumpEvent,
     PumpRun,
     Stretch,
-    accelerates_masses,
     is_smooth,
     limits_of,
     stretch_times,
@@ -427,6 +428,7 @@ def worked(
     begin, strokes = run_start(machine, start)
     require_number("run: until", until, f"an instant behind {begin:.6g} s is expected", above=begin, kind="time")
     work = PumpedMachine(in_plan(pump, plan), machine, given, strokes, acting or Acting())
+    ensure(acting is None or not acting.inertia, f"{plan.title}: {pump.name or 'a pump'}.run: {SLOW}")
     at_start = np.array([[strokes[name]] for name in work.consumers.strokes])
     stretches, coefficients, events = run_through(work, begin, float(until), at_start)
     times = np.array([*(each.time[0] for each in stretches), stretches[-1].time[-1]])
@@ -438,8 +440,8 @@ def worked(
     instants = cast(Instants, over.instants(plan, lambda name: float("nan")))
     instants = instants.shares(np.linspace(0.0, 1.0, INSTANTS))
     names, cylinders = [line.name for line in work.consumers.lines], [ram.name for ram in work.rams]
-    is_slow, shown_case = accelerates_masses(plan, instants), "" if cases is None else cases[0]
-    cycle = PumpCycle(pump.name or "supply", names, cylinders, stretches, work.limits, shown_case, events, is_slow=is_slow)
+    shown_case = "" if cases is None else cases[0]
+    cycle = PumpCycle(pump.name or "supply", names, cylinders, stretches, work.limits, shown_case, events, is_slow=has_masses(plan))
     vars(over)["found_in_run"] = FrozenDict({work.pump.name: PumpRun(cycle, plan, work.designs, acting or Acting())})
     found = PumpMotion(plan, work.designs, instants.strokes, "raise", over=over, instants=instants)
     vars(found).update(events=tuple(events), cycle=cycle)

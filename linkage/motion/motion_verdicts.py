@@ -16,7 +16,7 @@ from ..errors import DefinitionError, LinkageError, UnfitError, unwarned
 from ..frozen import immutable
 from ..language import heading_of, said
 from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
-from ..plan import Mask, Plan, name_or_pins, opening
+from ..plan import Mask, name_or_pins, opening
 from ..quantities import Member
 from ..units import Amount, deg, display_unit, show, shown_number
 from ..verdict import Remark, Verdict

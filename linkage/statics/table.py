@@ -163,7 +163,8 @@ def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
             raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
         there = joint_forces(pose, Acting(judge.acting.loads, judge.acting.case))
         joints = {joint_key(each): each.has_force for each in there.joints}
-        sizes = (pin_force(key[0], key[1], by=key[2]) if has else abs(pin_force(*key[:2], "couple", by=key[2])) for key, has in joints.items())
+        ends = [(key[:2], key[2], has_force) for key, has_force in joints.items()]
+        sizes = (pin_force(*on, by=by) if has_force else abs(pin_force(*on, "couple", by=by)) for on, by, has_force in ends)
         answers = judge.answers([*map(most, sizes)])
         known = dict[Hashable, PinForces]()
         rows = [judged_row(judge, key, answer, known) for key, answer in zip(joints, answers, strict=True)]

@@ -9,12 +9,12 @@ from numpy.testing import assert_allclose
 
 from hydraulics import LiftCircuit, Pump
 from hydraulics.cli import programme_read
-from linkage import Course, DefinitionError, Dimension, Over, ramp
+from linkage import Acting, Course, DefinitionError, Dimension, Over, ramp
 from linkage.cli import main
 from linkage.errors import FileError
 from linkage.pictures.page_data import event_data
 from linkage.units import bar, litre, minute, show
-from tests.hydraulics.test_pump import AREA, FLOW, OneBlock, TwoBlocks, pump_of
+from tests.hydraulics.test_pump import AREA, FLOW, OneBlock, TwoBlocks, TwoLifts, pump_of
 from tests.members import told_by
 
 PROGRAMME = """
@@ -49,6 +49,17 @@ def file(tmp_path):
     place = tmp_path / "dig.toml"
     place.write_text(PROGRAMME)
     return place
+
+
+def test_a_pump_says_that_it_leaves_inertia_out_at_a_constant_speed_too_and_refuses_it():
+    machine = type("Steady", (TwoLifts,), {"going": Over.path(time=(0.0, 2.0), S=Course([0.0, 2.0], [0.1, 0.3], "straight"), T=0.1)})()
+    motion, pump, insisting = machine.sweep(over="going"), machine.plan.members["supply"], Acting(inertia=True)
+    assert pump.check(motion).verdict.endswith("; inertia is left out.")
+    run = {"demands": {"one.ram": 0.05}, "until": 1.0, "start": {"S": 0.1, "T": 0.1}}
+    assert pump.run(machine, **run).cycle.verdict.endswith("; inertia is left out.")
+    for ask in (lambda: pump.check(motion, acting=insisting), lambda: pump.run(machine, **run, acting=insisting)):
+        with pytest.raises(DefinitionError, match=r"supply\.(check|run): acting= has inertia=True, but a pump's demands leave inertia out"):
+            ask()
 
 
 def test_a_programme_says_in_steps_what_several_runs_say_one_after_the_other(file):

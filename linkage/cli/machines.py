@@ -33,9 +33,10 @@ def find(text: str) -> type[Mechanism]:
 
         if is_foreign(text):
             return read_sketch(text).to_class()
-    if text.endswith((".toml", ".json")):
+    if place.endswith((".toml", ".json")):
         from ..files import load
 
+        ensure(not name, f"{text}: a file of TOML or JSON holds one machine, and no class is named in it; say {place}.")
         return load(text)
     if place.endswith(".py"):
         read(place, most=0)  # a file that is not there is named in words

@@ -219,6 +219,12 @@ def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None,
     more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
     given, every = strokes_given(machine, options), getattr(options, "every", None)
+    is_directed = Acting(direction=getattr(options, "direction", None)).is_moving and not (options.over or given)
+    places = machine.judge().places if is_directed else ()
+    timed, slow = ([each.over.name for each in places if (each.instants is not None) is way] for way in (True, False))
+    if timed and slow:  # a direction is of those that are not in time
+        options.over = slow
+        say_remark(f"--direction {options.direction}: {', '.join(timed)} is left out, as it runs in time, one way.")
     if machine.strokes and not given:
         overs = overs_of(machine, getattr(options, "over", ()))
         runs = runs_of(machine, over=overs, acting=acting_of(machine, options) if hasattr(options, "drive") else None)

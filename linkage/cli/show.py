@@ -58,8 +58,9 @@ def show_command(options: Namespace) -> int:
     at = {name: float(values[0]) for name, values in given.items()}
     if options.modes:
         return show_modes(machine, at, None if options.output is None else picture(options, machine))
-    if options.latex:
-        print(printed_equations(machine, options, at).latex())
+    equations = printed_equations(machine, options, at) if options.equations else None  # refused before a word is printed
+    if equations is not None and options.latex:
+        print(equations.latex())
         return 0
     plan = machine.plan
     print_section(f"{type(machine).__name__}: strokes", text_columns([*stroke_rows(machine)]).splitlines())
@@ -73,8 +74,8 @@ def show_command(options: Namespace) -> int:
     written = written_out(plan, changed)  # as this design has the members, without the dimensions listed already
     lines = [f"{name} = {with_units(plan, name, text)}" for name, text in written.items() if name not in plan.of_kind(Dimension)]
     print_section("Construction, in order", lines)
-    if options.equations:
-        print_section("Equations", str(printed_equations(machine, options, at)).splitlines(), fits=False)
+    if equations is not None:
+        print_section("Equations", str(equations).splitlines(), fits=False)
     verdicts = machine.verdicts(over=over)
     print_section("Verdict", verdicts, fits=sys.stdout.isatty())  # else a rule a line, for programs that read it
     about: list[str] = []  # its paragraphs as wide as the terminal; indented lines stay as they are written

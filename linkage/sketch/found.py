@@ -103,8 +103,9 @@ class FoundMachine:
             value = float(given) if isinstance(given, (int, float, str)) and not isinstance(given, bool) else inf
         except (ValueError, OverflowError):
             value = inf
-        if not (isfinite(value) and abs(value) < 1e12):
-            raise FileError(f"{self.here}, {where}: {cited(given)} is no finite number; correct it in the file.")
+        if not abs(value) < 1e12:
+            what = "is too large" if isfinite(value) else "is no finite number"
+            raise FileError(f"{self.here}, {where}: {cited(given)} {what}; correct it in the file.")
         return value
 
     def table(self, given: object, what: str) -> JsonTable:

@@ -185,6 +185,16 @@ def test_forces_along_several_paths_name_their_loads_once(said):
     ]  # fmt: skip
 
 
+def test_a_direction_is_of_the_overs_that_are_not_in_time(said, tmp_path):
+    timed = LOADER + "    box, going = Over(S=(0.0, 0.1)), Over.path(S=ramp(0.0, 0.2, speed=0.1))\n"
+    (tmp_path / "timed.py").write_text(timed, encoding="utf-8")
+    for command, pins in (("table", "--pins"), ("forces", "--poses")):
+        code, out, err = said(command, "timed.py", "--direction", "extending", pins)
+        assert code == 0 and "going is left out, as it runs in time" in err and "0.1000" in out and "0.2000" not in out
+    code, _, err = said("table", "timed.py", "--direction", "extending", "--over", "going")
+    assert code and "in time the machine moves one way" in err
+
+
 def test_limits_of_any_machine(said):
     code, out, _ = said("limits", "jansen")
     assert code == 0 and str(find("jansen")().sweep(21).limits()) in out and "mobility 1" in out
@@ -273,6 +283,8 @@ def test_capacity_of_a_design_in_a_file_is_that_of_its_dimensions(said):
         ("plot loader.py pressure --limit pressure<=3mm -o a.png", "--limit pressure: '3mm' is a length"),
         ("plot loader.py --limit pressure<=3bar -o a.png", "--limit, --case and --direction go with curves"),
         ("animate loader.py --column thrust --limit pressure<=3bar -o a.gif", "the curve that runs along is of thrust"),
+        ("show excavator --equations --ratio boom.E", "Excavator has 3 strokes: say wrt= one of"),
+        ("show loader.toml:Loader", "a file of TOML or JSON holds one machine, and no class is named in it; say loader.toml."),
         ("new 3x", "'3x' gives no name of a class"),
         ("new boom -o boom.txt", "-o boom.txt: the file's name ends in one of .py, .toml"),
         ("new loader", "loader.py is there already and stays as it is"),
@@ -280,8 +292,8 @@ def test_capacity_of_a_design_in_a_file_is_that_of_its_dimensions(said):
     ],
 )  # fmt: skip
 def test_mistakes_are_one_line(said, arguments, words):
-    code, _, err = said(*arguments.split())
-    assert code == 2
+    code, out, err = said(*arguments.split())
+    assert (code, out) == (2, "")
     assert err.startswith("hydrolinkage: ") and err.count("\n") == 1
     assert words in err
 

@@ -23,6 +23,7 @@ WRONG = {
     "other.linkage2": ("<svg></svg>", "begins with <svg>"),
     "twice.linkage2": (LINKAGE.replace('id="1" x', 'id="0" x', 1), "two connectors have one id"),
     "nan.linkage2": (LINKAGE.replace('y="0.0"', 'y="nan"', 1), "is no finite number"),
+    "wide.linkage2": (LINKAGE.replace('y="0.0"', 'y="1e300"', 1), "'1e300' is too large"),
     "lost.linkage2": (LINKAGE.replace('<connector id="2"/>', '<connector id="77"/>', 1), "names the point '77'"),
     "big.csv": (HEAD + "#" * 1_000_001, "larger than 1 MB"),
     "afloat.csv": (HEAD + "point,A,0,0,\npoint,B,9,0,\npoint,C,9,9,\nlink,,,,A B\ncylinder,,,,B C", "no pin is fixed"),

@@ -54,8 +54,8 @@ function answerText(question, each) {
   const plain = each.symbol === "<=" ? say("greatest {value}, {place}; not above {limit}", given) : say("least {value}, {place}; not below {limit}", given);
   return data.limits[rule] ? `${plain} (${limitText(data.limits[rule])})` : plain;
 }
-/* How much of its limit is used, 1 where it is met exactly; not a number where there is no such share. */
-const shareOf = ({ isLength }, each) => (each.share !== undefined ? max(each.share, 0) : (isLength && each.kept) || !(abs(each.value) >= 0) ? NaN : each.used || NaN);
+/* How much of its limit is used, 1 where it is met exactly, 1e6 where it is on the wrong side of it; not a number where there is no such share. */
+const shareOf = ({ isLength }, each) => (each.share !== undefined ? max(each.share, 0) : (isLength && each.kept) || !(abs(each.value) >= 0) ? NaN : min(each.used, 1e6) || NaN);
 /* The delivered verdicts in the language and the units chosen. */
 function delivered() {
   const inUnits = data.verdictsIn[system];
@@ -270,7 +270,7 @@ function remedies(q) {
 function bar({ share }) {
   const place = make("span", { className: share > 1 ? "share over" : "share" });
   if (!isNumber(share)) return place;
-  const fill = make("i"), percent = `${fixed(100 * share, share < 0.995 || share > 1.005 ? 0 : 1)}\u2009%`;
+  const fill = make("i"), percent = share < 1e6 ? `${fixed(100 * share, share < 0.995 || share > 1.005 ? 0 : 1)}\u2009%` : "\u221e";
   fill.style.width = `${min(max(100 * share, 1), 100).toFixed(0)}%`;
   place.title = say("{share} of its limit is used", { share: percent });
   place.append(make("span"), percent);

@@ -36,7 +36,7 @@ from linkage.cli.machines import find
 from linkage.language import language
 from linkage.motion import HasVerdicts, judged_poses, live_text, pose_sentence
 from linkage.motion.motion_verdicts import rules_of
-from linkage.pictures.page_data import PageRequests, page_data
+from linkage.pictures.page_data import PageRequests, fact_data, page_data
 from linkage.pictures.page_file import page_part
 from linkage.pictures.shown_values import typeset
 from linkage.reports import is_column
@@ -190,6 +190,20 @@ class Strong(Compares):
 
 class Bounded(Backed):
     strong = Strong()
+
+
+def test_what_is_on_the_wrong_side_of_its_limit_has_a_bar_and_stands_first():
+    class Levels(Compares):
+        rules: ClassVar = {"low": least(y("G")) >= 3.0, "behind": least(-y("G")) >= 0.1, "kept": least(y("G")) >= -1.0}
+
+        def verdicts(self, judge):
+            answers = {rule: judge.answer(each) for rule, each in self.rules.items()}
+            return [Verdict(rule, each.ok, rule, answer=each) for rule, each in answers.items()]
+
+    machine = type("Levelled", (Dumper,), {"compares": Levels()})()
+    requests = PageRequests(machine, 5)
+    shares = {each.rule: fact_data(requests, each)[3:] for each in machine.verdicts() if each.is_rule}
+    assert shares["behind"] == [1e6] > shares["low"] > [1.0] and shares["lowering"] == []  # that is kept
 
 
 @NEEDED

@@ -293,15 +293,18 @@ def keeps_digits(plan: Plan, requests: Sequence[Request], inputs: Mapping[str, A
     if not near[many].any():
         return clear
     kernel, counts = of_all("coarse", plan, requests, coarse_look)
-    size = near.shape[1:]
-    values = np.broadcast_to(kernel(inputs, size=size).values, (len(kernel.plan.outputs), *size)).reshape(-1, near[0].size)
+    is_one = near.shape[1] == 1
+    asked = near[many].any(axis=0) | (not is_one)  # of one design these poses alone
+    size = len(asked), int(asked.sum()) // len(asked)
+    given = {name: np.ravel(value)[asked[0]] if is_one and np.size(value) > 1 else value for name, value in inputs.items()}
+    values = np.broadcast_to(kernel(given, size=size).values, (len(kernel.plan.outputs), *size)).reshape(len(kernel.plan.outputs), -1)
     extent, (own, shaken), least = np.sqrt(values[0]), np.split(values[1 : 1 + 2 * sum(counts)], 2), values[1 + 2 * sum(counts) :]
     with np.errstate(all="ignore"):
         left = PrecisionLeft(own, LAST * np.abs(shaken - own), extent)
         for k, (what, count, last) in enumerate(zip(requests, counts, accumulate(counts), strict=True)):
             if many[k]:
                 error = what.error(plan, left.some_rows(slice(last - count, last)))
-                clear[k] = ((error <= DIGITS) & (least[k] > NEAR**2)).reshape(size)
+                clear[k, asked] = (error <= DIGITS) & (least[k] > NEAR**2)
     return clear & near
 
 

@@ -7,7 +7,7 @@ import sys
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from functools import cached_property, partial
-from itertools import groupby, permutations
+from itertools import groupby, islice, permutations
 from pathlib import Path
 from typing import Any, cast
 
@@ -393,14 +393,15 @@ def shown_first(requests: PageRequests, dims: Sequence[Sequence[Any]]) -> list[s
     _, request, why = requests.columns[requests.column]
     ranges = {name: float(np.ptp(ends)) if isinstance(ends, list) else 2.0 * ends for name, _, ends, *_ in dims}
     judge, entries = requests.questions.judge, requests.plan.table.entries
-    broken = [influences([there], asked, ranges) for there, asked in requests.questions.broken]
+    broken = (influences([there], asked, ranges) for there, asked in requests.questions.broken)
     found = {} if why else influences([place.sampled for place in judge.places], [request], ranges)
 
     def ranked(moving: Mapping[str, float]) -> list[str]:  # sizes before efficiencies and other plain numbers
         return sorted(moving, key=lambda name: not plan_measure(requests.plan, name))
 
     rest = ranked(found) or sorted(names, key=lambda name: entries[name].kind not in STEPS)
-    chosen = dict.fromkeys([name for moving in broken for name in ranked(moving)[:OF_BROKEN]][: SHOWN - OF_BROKEN] + rest)
+    first = islice((name for moving in broken for name in ranked(moving)[:OF_BROKEN]), SHOWN - OF_BROKEN)
+    chosen = dict.fromkeys([*first, *rest])
     return sorted([*chosen][:SHOWN], key=lambda name: name.rpartition(".")[0])
 
 

@@ -23,8 +23,8 @@ from .elimination import expanded
 from .node import Node
 from .numba_backend import NumbaLoop
 from .numpy_backend import NumpyBlocks, columns_part, is_array, is_table, rows_part, with_half_angles
-from .operations import FLOATS, NO_VALUE, QUICK
-from .schedule import Schedule, schedule
+from .operations import FLOATS, NO_VALUE, ON_FLOATS, QUICK
+from .schedule import Schedule, schedule, values_by_node
 from .text import GUARDED, PYTHON, Dialect, function_text
 
 
@@ -35,6 +35,7 @@ class PlainFloats:
         self.plan = plan
         self._latest: tuple[bytes, tuple[float, ...]] = b"none", ()
         self._latest_of: tuple[Mapping[str, float], tuple[float, ...]] = {}, ()
+        self._read = 0
 
     @cached_property
     def quick(self) -> Mapping[str, Callable[..., tuple[float, ...]]]:
@@ -68,21 +69,37 @@ class PlainFloats:
 
         What the pose part needs of the latest design is kept by the dictionary itself, which does not change.
         """
+        row = [strokes[name].item() for name in self.plan.input_names[1]]
+        if self._read < READ_FIRST and (first := self.first_poses([design[name] for name in self.plan.input_names[0]], [row])):
+            return first[0]
         known, passed = self._latest_of
         if known is not design:
             passed = self.design_values([design[name] for name in self.plan.input_names[0]])
             self._latest_of = design, passed
-        row = [strokes[name].item() for name in self.plan.input_names[1]]
         try:
             return self.quick["pose"](*passed, *row)
         except NO_VALUE:
             return self.careful["pose"](*passed, *row)
 
-    def poses(self, passed: Sequence[float], columns: Sequence[Sequence[float]], n: int) -> list[tuple[float, ...]]:
+    def first_poses(self, design: Sequence[float], rows: Sequence[Sequence[float]]) -> list[tuple[float, ...]] | None:
+        """Return outputs and guards of the first few poses, read from the nodes, as a text and its code cost far more; None later on."""
+        plan, found = self.plan, list[tuple[float, ...]]()
+        self._read += len(rows)
+        for row in rows if self._read <= READ_FIRST else ():
+            known = dict(zip((*plan.design_inputs, *plan.pose_inputs), (*design, *row), strict=True))
+            values = values_by_node((*plan.design, *plan.pose), known, ON_FLOATS)
+            found.append(tuple([each.value if each.op == "constant" else values[each] for each in (*plan.outputs, *plan.guards)]))
+        return found or None
+
+    def poses(self, design: Sequence[float], columns: Sequence[Sequence[float]], n: int) -> list[tuple[float, ...]]:
         """Return outputs and guards pose by pose."""
-        quick = self.quick["pose"]
+        rows = list(zip(*columns, strict=True)) if columns else [()] * n
+        first = self.first_poses(design, rows)
+        if first is not None:
+            return first
         found = []
-        for row in zip(*columns, strict=True) if columns else [()] * n:
+        passed, quick = self.design_values(design), self.quick["pose"]
+        for row in rows:
             try:
                 found.append(quick(*passed, *row))
             except NO_VALUE:
@@ -97,18 +114,22 @@ class PlainFloats:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         count, m, n = values.shape
         if m == n == 1:
-            (row,) = self.poses(self.design_values(list(map(one_float, design))), [(one_float(value),) for value in poses], 1)
+            (row,) = self.poses(list(map(one_float, design)), [(one_float(value),) for value in poses], 1)
             values[:, 0, 0] = row[:count]
             guards[:] = row[count:]  # of one pose each is its own least
             return
         designs = [float_list(value, m) for value in design]
         for place in range(m):
             here = [value[place % len(value)] if is_table(value) else value for value in poses]
-            rows = self.poses(self.design_values([each[place] for each in designs]), [float_list(value, n) for value in here], n)
+            rows = self.poses([each[place] for each in designs], [float_list(value, n) for value in here], n)
             values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
             for k in range(len(guards)):
                 seen = [guards[k], *(row[count + k] for row in rows)]
                 guards[k] = math.nan if any(map(math.isnan, seen)) else min(seen)  # no comparison sees NaN
+
+
+READ_FIRST = 24
+"""So many poses of a program are read from its nodes before it is written as a text and compiled."""
 
 
 def one_float(value: Numbers) -> float:

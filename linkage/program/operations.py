@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from operator import add, mul, neg, sub
 from typing import NamedTuple
 
 import numpy as np
@@ -188,6 +189,12 @@ FLOATS: Mapping[str, Callable[..., object]] = {
     "pick": lambda a, b, x, y: x if a <= b else y,
     "solve": solve_floats,
     "component": component,
+}
+
+#: All operations on plain floats, those too that a text writes with signs.
+ON_FLOATS: Mapping[str, Callable[..., object]] = {
+    **FLOATS,
+    **{"add": add, "subtract": sub, "multiply": mul, "negative": neg, "square": lambda a: a * a},
 }
 
 #: The same names for text that may raise where a division, a root or a function has no value.

@@ -7,6 +7,7 @@ from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from functools import cached_property
 from heapq import heapify, heappop, heappush
 from operator import attrgetter
+from typing import Any
 
 from ..frozen import record
 from .node import Level, Node
@@ -55,6 +56,15 @@ class Schedule:
     def economical(self) -> tuple[Node, ...]:
         """The nodes of a pose in an order in which few values are alive at a time: fewer arrays, which stay in the cache."""
         return tuple(few_alive(self.pose, frozenset(self.outputs)))
+
+
+def values_by_node(nodes: Iterable[Node], known: Mapping[Node, object], functions: Mapping[str, Callable[..., object]]) -> dict[Node, Any]:
+    """Return known values and those of nodes, worked out one by one: a program that runs a few times is not worth its text."""
+    values = dict(known)
+    for node in nodes:
+        args = [arg.origin for arg in node.args]
+        values[node] = functions[node.op](*[arg.value if arg.op == "constant" else values[arg] for arg in args])
+    return values
 
 
 def schedule(outputs: Sequence[Node], guards: Sequence[Node] = ()) -> Schedule:

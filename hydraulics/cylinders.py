@@ -1036,6 +1036,22 @@ class Cylinder(BarrelAndRod, Ram):
         bore, rod = (self.size if motion is None else self.sized(motion)).single
         return standard_verdict(self.name or said("cylinder"), bore, rod)
 
+    def _stage_remarks(self, judge: Judge) -> list[Remark]:
+        """Return a remark where no cylinder of one stage is as short and as long as its pins ask, if its closed length is not given.
+
+        Source: geometry. Closed, the barrel holds the stroke, the piston and the gland; these two together are at least a bore long.
+        """
+        low, high = (float(each.value) for each in judge.answers(least_and_most(distance(self.A, self.B))))
+        most_open = 2.0 * low - float(np.min(self.sized(judge.motion).bore))
+        if self.closed is not None or low < NO_LENGTH * high or not high > most_open + TOLERANCE:
+            return []
+        text = said(
+            "{pins} goes from {low} to {high}: a cylinder of one stage that is so short closed opens to less than {most}; move its pins, "
+            "or take a Telescope.",
+            pins=self._pins, low=shown_number(low, "mm", ".1f"), high=show(high, "mm", ".1f"), most=show(max(most_open, low), "mm", ".1f"),
+        )  # fmt: skip
+        return [Remark(text)]
+
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it is of a standard size, and a note where the load is against the side that works, which no line says.
 
@@ -1049,7 +1065,7 @@ class Cylinder(BarrelAndRod, Ram):
         list of Verdict
             The verdicts.
         """
-        own = [self.standard(judge.motion), *self.speed_verdicts(judge)]
+        own = [self.standard(judge.motion), *self.speed_verdicts(judge), *self._stage_remarks(judge)]
         found = self.pressed_wrongly(judge) if self._is_bare(judge) else None
         if found is None:
             return own

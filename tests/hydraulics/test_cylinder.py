@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, CylinderSize, next_bore, next_rod, standard_bores, standard_rods
-from linkage import Crank, Ground, Mechanism, SingularWarning, Stroke, Weight
+from linkage import Crank, Ground, Guide, Mechanism, OnGuide, SingularWarning, Stroke, Weight
 from linkage.errors import DefinitionError
 from linkage.units import MPa, bar, kN, mm
 from tests.for_all import for_all
@@ -185,3 +185,16 @@ def test_a_thrust_asked_again_is_the_same_and_warns_again():
         found.append(thrust.tolist())
         thrust *= 2.0  # what was given is the asker's own
     assert found[0] == found[1]
+
+
+def test_what_no_cylinder_of_one_stage_can_do_is_remarked_unless_its_lengths_are_given():
+    rng = np.random.default_rng(7)
+    for _ in range(6):
+        closed, bore = rng.uniform(0.3, 0.9), rng.uniform(0.04, 0.12)
+        for most, told in ((2.0 * closed - bore - 1e-3, 0), (2.0 * closed - bore + 1e-3, 1)):
+            members = {"S": Stroke(closed, most), "O": Ground(0, 0), "rail": Guide((0.0, 0.0), angle=0.5), "P": OnGuide("rail", at="S")}
+            ram = Cylinder("O", "P", bore=bore, rod=0.5 * bore)
+            machine = type("Slide", (Mechanism,), members | {"ram": ram})()
+            assert sum("of one stage" in each for each in machine.verdicts()) == told
+            given = type("Given", (type(machine),), {"ram": ram.renewed(closed=closed)})()
+            assert not any("of one stage" in each for each in given.verdicts())

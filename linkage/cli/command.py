@@ -177,10 +177,11 @@ def picture(options: Namespace, machine: Mechanism, suffixes: Sequence[str] = PI
 
 
 def without_lists_of_properties() -> None:
-    """Let Matplotlib, as it loads, write no lists of properties into its help, which takes 0.2 s and which no command shows."""
+    """Let Matplotlib, as it loads, write no lists of properties for its help, which takes 0.3 s and which no command shows."""
     import matplotlib.artist
 
     matplotlib.artist.kwdoc = lambda artist: ""
+    setattr(matplotlib.artist.Artist, "_update_set_signature_and_docstring", bool)  # noqa: B010
 
 
 def default_name(options: Namespace, machine: Mechanism, name: str = "") -> str:

@@ -553,7 +553,7 @@ def traced(plan: Plan, quantity: object) -> Request | None:
                 remedy = f"say which, {' or '.join(parts)}"
             raise DefinitionError(f"{plan.title}: {name} has two components; {remedy}.")
         if request.traced_with is not None:
-            plan.made(("traced", request.traced_with), lambda twin: len(request.nodes(twin)))
+            plan.made_beside(("traced", request.traced_with), lambda twin: len(request.nodes(twin)))
         return request
     return None
 

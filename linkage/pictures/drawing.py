@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.image import AxesImage, imread
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Circle, PathPatch, Polygon
+from matplotlib.path import Path as Outline
 from matplotlib.transforms import Affine2D
 from PIL import Image
 
@@ -151,6 +151,18 @@ def polygon(ax: Axes, level: float, **options: Any) -> Polygon:
     return patch
 
 
+def path_of(lines: FloatArray) -> Outline:
+    """Return straight lines, shape (n, 2, 2) [m], as one path."""
+    return Outline(lines.reshape(-1, 2), [Outline.MOVETO, Outline.LINETO] * len(lines))
+
+
+def many_lines(ax: Axes, lines: FloatArray, colour: str, width: float, level: float) -> PathPatch:
+    """Draw straight lines, shape (n, 2, 2) [m], as one artist: a file then has one element for all."""
+    patch = PathPatch(path_of(lines), fill=False, edgecolor=colour, linewidth=width, zorder=level)
+    ax.add_artist(patch)
+    return patch
+
+
 def arrow_between(
     ax: Axes, start: FloatArray, end: FloatArray, colour: str, head: float, level: float, *, width: float = 1.4, clip: bool | None = None
 ) -> None:
@@ -205,10 +217,7 @@ class MarkPart(MovingPart):
             )
             for layer, each in enumerate(mark.lines)
         )  # fmt: skip
-        self.hatches = LineCollection([], colors=ink, linewidths=0.7 * style.THIN, zorder=level + 0.005)
-        if len(mark.hatched):
-            ax.add_collection(self.hatches, autolim=False)
-        hatches = [self.hatches] if len(mark.hatched) else []
+        self.hatches = [many_lines(ax, mark.hatched, ink, 0.7 * style.THIN, level + 0.005)] if len(mark.hatched) else []
         self.under: list[tuple[AxesImage, FloatArray]] = []
         if mark.under is not None:  # a picture from a file, as wide as given, of its own height
             path, corners, opacity = mark.under
@@ -220,12 +229,13 @@ class MarkPart(MovingPart):
             ax.add_artist(image)
             up = corners[0] + (corners[3] - corners[0]) * len(pixels) / pixels.shape[1]
             self.under.append((image, np.array([corners[0], corners[1], up])))
-        self.artists = (*self.lines, *hatches, *(image for image, _ in self.under))
+        self.artists = (*self.lines, *self.hatches, *(image for image, _ in self.under))
 
     def move(self, at: Places) -> None:
         for line, artist in zip(self.mark.drawn(at), self.lines, strict=True):
             artist.set_xy(line)
-        self.hatches.set_segments(list(self.mark.placed(self.mark.hatched, at)))
+        for hatches in self.hatches:
+            hatches.set_path(path_of(self.mark.placed(self.mark.hatched, at)))
         for image, corners in self.under:  # three of its corners are those of a unit square
             start, right, up = self.mark.placed(corners, at)
             columns = np.column_stack([right - start, up - start, start])
@@ -334,7 +344,7 @@ def ground(ax: Axes, pin: FloatArray, way: float, size: float, look: Look) -> No
     corners = pin + np.array([(0.0, 0.0), (HEIGHT, BASE), (HEIGHT, -BASE)]) @ axes
     ink, fill, level = look.colour(style.INK), look.colour(style.ROD), look.level - 0.5
     ax.add_patch(Polygon(corners, facecolor=fill, edgecolor=ink, linewidth=style.OUTLINE, joinstyle="round", zorder=level))
-    ax.add_collection(LineCollection(list(lines), colors=ink, linewidths=style.THIN, zorder=level), autolim=False)
+    many_lines(ax, lines, ink, style.THIN, level)
 
 
 # Sliding: slots on moving bodies, and fixed rails with their hatching.
@@ -344,5 +354,5 @@ def rails(ax: Axes, scene: Scene, look: Look) -> None:
     """Draw the fixed rails. They never move."""
     colour = look.colour(style.INK)
     for lines in hatched(scene):
-        widths = [1.6 * style.OUTLINE, *[style.THIN] * (len(lines) - 1)]
-        ax.add_collection(LineCollection(list(lines), colors=colour, linewidths=widths, zorder=look.level - 0.6), autolim=False)
+        for some, width in ((lines[:1], 1.6 * style.OUTLINE), (lines[1:], style.THIN)):
+            many_lines(ax, some, colour, width, look.level - 0.6)

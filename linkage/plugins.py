@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from .errors import DefinitionError, LinkageError, culprit
 
 if TYPE_CHECKING:
-    from importlib.metadata import EntryPoint
+    from importlib.metadata import EntryPoint, EntryPoints
 
 MACHINES = "hydrolinkage.machines"
 COMMANDS = "hydrolinkage.commands"
@@ -37,9 +37,15 @@ def entry_points(group: str) -> Mapping[str, EntryPoint]:
 @lru_cache(maxsize=64)
 def entry_points_along(group: str, folders: tuple[str, ...]) -> Mapping[str, EntryPoint]:
     """Return the same where modules are looked for in some folders: those of `sys.path`; read once for each such list."""
-    metadata = import_module("importlib.metadata")  # here: it takes longer to load than half of this package
-    found = {entry.name: entry for entry in metadata.entry_points(group=group)}
+    found = {entry.name: entry for entry in installed_along(folders).select(group=group)}
     return MappingProxyType({name: found[name] for name in sorted(found)})
+
+
+@lru_cache(maxsize=8)
+def installed_along(folders: tuple[str, ...]) -> EntryPoints:
+    """Return the entry points of all groups there: each reading opens a file for every installed package."""
+    found: EntryPoints = import_module("importlib.metadata").entry_points()  # here: it takes longer to load than half of this package
+    return found
 
 
 def guarded(load: Callable[[], T], what: str) -> T:

@@ -90,7 +90,10 @@ class DrawingReader:
             is_hatched = any(hatch and surrounds(place, hatch) for hatch in hatches)
             self.found.add_point(key, word if far <= 4.0 * radius and word else key, *place, circle in ground or is_hatched)
             self.pins[key], self.circles[key] = (place, radius), [circle]
-        self.found.ensure(self.pins, "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME.")
+        what = "there is no circle on the layers of pins; a circle is a pin, see --layer pins=NAME"
+        if any(each.dxf.start_param == 0.0 and each.dxf.end_param > 6.28 for each in self.entities_on(("ELLIPSE",), "", "pins", "links")):
+            what += ". There are ellipses: a block scaled by two numbers makes them of circles; insert it with one scale"
+        self.found.ensure(self.pins, f"{what}.")
         drawn = [(each, corners_of(each)) for each in self.entities_on(LINES, "ground")]
         frame = [corners for _, corners in drawn if self.is_closed(corners)]
         frame += [corners for _, corners in outlines([each for each, own in drawn if own not in frame], MEETS * self.found.size)]

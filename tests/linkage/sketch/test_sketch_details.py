@@ -419,6 +419,15 @@ def test_a_drawing_gives_one_machine_however_cad_writes_it(how, tmp_path):
     assert any("hides, 2 of 13 entities" in note for note in sketch.notes) == (how == "hidden")
 
 
+def test_a_block_scaled_by_two_numbers_is_refused_with_the_remedy(tmp_path):
+    document, _ = cad_drawing("mirrored")
+    (block,) = document.modelspace().query("INSERT")
+    block.dxf.yscale = 2.0
+    document.saveas(tmp_path / "m.dxf")
+    with pytest.raises(FileError, match="ellipses: a block scaled by two numbers makes them of circles; insert it with one scale"):
+        read_sketch(tmp_path / "m.dxf")
+
+
 TABLES = {
     "semicolons": lambda text: text.replace(",", ";").replace(".5", ",5"),
     "a line that says sep=": lambda text: "sep=;\n" + text.replace(",", ";"),

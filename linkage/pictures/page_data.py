@@ -23,9 +23,10 @@ from ..plan import Plan, name_or_pins, opening, plan_measure, require_kind
 from ..plan.members import FRAME
 from ..plugins import MACHINES, entry_points
 from ..program import FloatArray, Node
-from ..quantities import is_number, joined_names, needs
+from ..quantities import is_number, joined_names, name_of, needs
 from ..reports import LiveColumn, column_requests, friction_of_columns, is_changing, request_in_case, results
 from ..reports.runs import NOTHING, At, motion_over, reached_motion, run_along, run_of
+from ..statics import held_fault
 from ..units import SYSTEMS, UNITS, deg, display_unit, factor, shown_in, unit_system, units_shown
 from ..verdict import Verdict
 from .layout import label_free, offsets, props
@@ -180,7 +181,8 @@ class PageRequests:
                 self.by_name[f"track {track.name} {k}"] = track_number(track, part, axis)
         for name in self.motion._joints:
             self.by_name[f"joint {name}"] = transmission(name)
-        for name, member in speakers(self.plan, Tabled).items():
+        is_loose = any(held_fault(self.motion, name_of(each.case or PLAIN_CASE)) for each in self.situations)  # then nothing has a pressure
+        for name, member in {}.items() if is_loose else speakers(self.plan, Tabled).items():
             for what, request in member.gauges(self.plan).items():
                 self.by_name |= situated_requests(f"gauge {name} {what}", request, self.situations) if what in GAUGES else {}
         for k, arrow in enumerate(self.arrows):

@@ -109,7 +109,7 @@ class LiveQuestions:
         constraints = conditions_of([condition], self.machine)
         measures = [side for each in constraints for side in (each.left, each.right)]
         measures += [each for each in (words.measure, words.share) if each is not None]
-        known, pieces = dict[Hashable, list[Piece]](), dict[Leaf, list[Piece]]()
+        known, pieces, count = dict[Hashable, list[Piece]](), dict[Leaf, list[Piece]](), len(self.by_name)
         try:
             for leaf in (leaf for each in measures for leaf in each.leaves):
                 key = leaf_key(self.machine.plan, leaf)
@@ -117,6 +117,9 @@ class LiveQuestions:
                     known[key] = self.leaf_rows(leaf)
                 pieces[leaf] = known[key]
         except LinkageError:
+            for name in [*self.by_name][count:]:  # what is refused, as forces of a loose machine are, is not asked of the program
+                del self.by_name[name]
+                self.delivered.pop(name, None)
             if words.measure is not None:
                 self.ask(rule, member, condition)
             return

@@ -45,6 +45,7 @@ from linkage import (
     max_table,
     most,
     optimise,
+    page,
     pin_force,
     pin_forces,
     reaction,
@@ -52,6 +53,7 @@ from linkage import (
     report,
     working_field,
 )
+from linkage.pictures.page_data import PageRequests
 from linkage.pictures.page_forces import geared_remark
 from linkage.reports import results
 from linkage.statics import drive_remarks, held_verdict, looseness
@@ -131,14 +133,14 @@ def loosened(seed):
     """Return a random machine with something that nothing holds, the point of a weight on it, and a cylinder there, if there is one."""
     base = random_mechanism(seed, strokes=1 + seed % 2, joints=3)
     rng, way, last = np.random.default_rng(seed), seed % 5, base.plan.moving[-1]
-    members, ram = {}, ""
+    members, ram, S = {}, "", 1.0 * ref("S")  # an angle in some, on a radius of 1 m
     span = float(np.hypot(*np.subtract(base()["A"], base()["O"])).item())
     if way == 0:  # a turned vector whose length is kept, about another point
         members["Z9"] = Offset("P", Turn(Vector("A", last), rng.uniform(-1.0, 1.0), length=0.4))
     elif way == 1:  # a body that would move without turning
         members["Z9"] = Offset(last, Vector("A", "O"))
     elif way == 2:  # the sides of a corner exchanged
-        sides = 0.8 * span, 0.6 * span + ref("S")
+        sides = 0.8 * span, 0.6 * span + S
         members["V9"] = Vector("A", "O")
         members["Z9"] = Offset("A", Turn("V9", -CosineAngle(distance("A", "O"), *sides), length=sides[1]))
         ram = "ram"
@@ -147,15 +149,15 @@ def loosened(seed):
     elif way == 3:  # one pressure for two levers that nothing couples
         for k, side in enumerate((LEFT, RIGHT)):
             members |= {f"G{k}": Ground(5.0 + 3 * k, 0.0), f"H{k}": Ground(5.5 + 3 * k, -0.5)}
-            members[f"K{k}"] = Dyad(f"H{k}", f"G{k}", **{f"H{k}K{k}": 0.6 + ref("S"), f"G{k}K{k}": 0.6}, side=RIGHT)
+            members[f"K{k}"] = Dyad(f"H{k}", f"G{k}", **{f"H{k}K{k}": 0.6 + S, f"G{k}K{k}": 0.6}, side=RIGHT)
             members[f"Z{9 - k}"] = OnLink(f"G{k}", f"K{k}", **{f"G{k}Z{9 - k}": 1.2}, **{f"K{k}G{k}Z{9 - k}": 0.1}, side=side)
             members[f"ram{k}"] = Cylinder(f"H{k}", f"K{k}", bore=60 * mm, rod=35 * mm)
         members["other"] = Weight("Z8", mass=300.0)
         members["pump"], ram = LiftCircuit(["ram0", "ram1"], pressure=200 * bar), "ram1"
     else:  # a point pushed along a body by a stroke that a cylinder elsewhere takes over
         members |= {"G0": Ground(5.0, 0.0), "H0": Ground(5.5, -0.5)}
-        members["K0"] = Dyad("H0", "G0", H0K0=0.6 + ref("S"), G0K0=0.6, side=RIGHT)
-        members["Z9"] = OnLink("G0", "H0", G0Z9=0.3 + ref("S"))
+        members["K0"] = Dyad("H0", "G0", H0K0=0.6 + S, G0K0=0.6, side=RIGHT)
+        members["Z9"] = OnLink("G0", "H0", G0Z9=0.3 + S)
         members["ram"], ram = Cylinder("H0", "K0", bore=60 * mm, rod=35 * mm), "ram"
         members["pump"] = LiftCircuit(ram, pressure=200 * bar)
     members["load"] = Weight("Z9", mass=float(rng.uniform(50.0, 500.0)))
@@ -195,6 +197,8 @@ def test_sides_of_a_corner_exchanged_are_told_with_the_lines_to_look_at(tmp_path
     assert Exchanged().freedom.loose == ("OC", "ram")
     assert held_verdict(AsMeant().judge()) is None and AsMeant().freedom.loose == ()
     assert "can still move in 2 ways" in report(Exchanged(), tmp_path / "report.md").read_text()
+    shown = PageRequests(Exchanged(), 5)  # a page shows it without its forces
+    assert {"point B", "column OAB 0"} <= shown.by_name.keys() and page(Exchanged(), tmp_path / "page.html").exists()
 
 
 def test_a_picture_shows_the_loose_movement():

@@ -177,13 +177,17 @@ class System:
 
     def drives(self, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:
         """Yield how each driven quantity follows a stroke, shape (n,), with the force that drives it; those that do not are left out."""
-        structure, poses = self.structure, self.poses
-        for strut in structure.struts:
+        for strut in self.structure.struts:
             if strut.known is None and strut.quantity is None:
-                yield poses.growth(strut.P, strut.Q, stroke), self.thrust(strut)
-            elif strut.known is None and strut.quantity is not None and self.follows(strut.quantity, stroke):
+                yield self.poses.growth(strut.P, strut.Q, stroke), self.thrust(strut)
+        yield from self.step_drives(stroke)
+
+    def step_drives(self, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:
+        """Yield the same of the lengths and joints that steps drive."""
+        for strut in self.structure.struts:
+            if strut.known is None and strut.quantity is not None and self.follows(strut.quantity, stroke):
                 yield self.ratio(strut.quantity, stroke), self.thrust(strut)
-        for contact in structure.contacts:
+        for contact in self.structure.contacts:
             yield from self.driven(contact, stroke)
 
     def driven(self, contact: Contact, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:
@@ -275,7 +279,7 @@ class System:
             own = self.unknown(gear.joint, gear.letter, 1.0).multiplied(reduce(np.multiply, factors, poses.zeros() + gear.sign))
             yield self.unknown(gear.contact, "c", 1.0).plus(own), poses.zeros()
         for stroke in sorted(set[str]().union(*self.structure.geared)):
-            forms = [force.multiplied(ratio) for each in self.structure.contacts for ratio, force in self.driven(each, stroke)]
+            forms = [force.multiplied(ratio) for ratio, force in self.step_drives(stroke)]
             yield reduce(LinearForm.plus, forms), poses.zeros()
 
     def given_thrust(self, member: TwoPoint) -> FloatArray:

@@ -6,7 +6,7 @@ Everything about a joint comes from what its member says of it in `joints()`; no
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import product
@@ -113,7 +113,7 @@ Bodies: TypeAlias = tuple[tuple[FreeBody, ...], tuple[Strut, ...], tuple[Sliding
 """The bodies, the two-point members, and the pairs of bodies that some of them are."""
 
 
-def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[Push]) -> Bodies:
+def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[Push], geared: Collection[frozenset[str]] = ()) -> Bodies:
     """Return the bodies and the two-point members: sliders first, then links, then those members that are bodies of their own."""
     fixed = frame_points(plan)
     sides = [side for _, joint in plan.joints for side in (joint.on, joint.by) if side.role == "slider"]
@@ -126,7 +126,7 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[Push]) -> Bodies
             links.append(FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=plan.link_names.get(body.name, "")))
     pairs = sliding_pairs(plan, links)
     links = [link for link in links if not any(set(link.points) == pair.points for pair in pairs)]
-    struts, hosts = two_point_members(plan, holders, thrusts, links)
+    struts, hosts = two_point_members(plan, holders, thrusts, links, geared)
     struts = tuple(replace(each, pair=next((pair for pair in pairs if pair.member.name == each.name), None)) for each in struts)
     renamed = [each for each in struts if each.host == each.name]
     links = [link for link in links if link not in [hosts[each.name] for each in renamed]]
@@ -150,7 +150,7 @@ def slider(point: str) -> FreeBody:
 
 
 def two_point_members(
-    plan: Plan, holders: Holders, thrusts: Sequence[Push], links: Sequence[FreeBody]
+    plan: Plan, holders: Holders, thrusts: Sequence[Push], links: Sequence[FreeBody], geared: Collection[frozenset[str]] = ()
 ) -> tuple[tuple[Strut, ...], dict[str, FreeBody]]:
     """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
     cylinders = [Strut(member_title(each), *each.ends, line=holders.line_of(each)) for each in holders.every_cylinder]
@@ -158,7 +158,7 @@ def two_point_members(
     found = []
     for bar in plan.cylinders:
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
-        if strokes - holders.strokes_taken and not holders.line_quantities & plan.reaches(bar.length):
+        if (strokes - holders.strokes_taken or strokes in geared) and not holders.line_quantities & plan.reaches(bar.length):
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
     struts = [*found, *cylinders, *known_struts(given)]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
@@ -345,7 +345,7 @@ class Structure:
         self.fixed = frame_points(plan)
         self.holders: Holders = holders_of(plan, elements)
         self.geared = self.shared_strokes() if is_geared else set()
-        bodies, self.struts, self.pairs = free_bodies(plan, self.holders, thrusts)
+        bodies, self.struts, self.pairs = free_bodies(plan, self.holders, thrusts, self.geared)
         sliding = dict.fromkeys((joint.point, plan.track(joint)) for _, joint in plan.joints if joint.kind == "guide")
         guides, joined = Counter(point for point, _ in sliding), Counter(point for body in bodies for point in body.points)
         # The sliding blocks that friction asks for: of pins with friction that run on one guide or slot and join one link only.
@@ -453,15 +453,19 @@ class Structure:
         return bool(strokes) and strokes <= self.holders.strokes_taken
 
     def shared_strokes(self) -> set[frozenset[str]]:
-        """Return the strokes taken over that more joints follow than they are themselves, as geared cranks do."""
-        count = Counter(frozenset(names) for _, joint in self.plan.joints for names in self.followed(joint)[0].values())
-        return {names for names, joints in count.items() if self.is_taken({*names}) and joints > len(names)}
+        """Return the strokes taken over that more joints follow than they are themselves, as geared cranks do, or a rack beside a body."""
+        followed = [(each, frozenset(names)) for each in self.plan.joints for names in self.followed(each[1])[0].values()]
+        racks = {names for (name, joint), names in followed if any(geared_to(self.plan, joint, name))}
+        count = Counter(names for _, names in followed)
+        return {names for names, joints in count.items() if self.is_taken({*names}) and (joints > len(names) or names in racks)}
 
     def turned_by_gears(self) -> tuple[str, ...]:
-        """Return the pivots whose couples gears give: of cranks geared to a body, or to each other on a stroke that is taken over."""
+        """Return where gears give couples or forces: pivots of cranks and racks geared to a body or to each other, lengths beside racks."""
         turned = [each for each in self.contacts if "c" in each.joint.holds]
         coupled = [each for each in turned if frozenset(self.followed(each.joint)[0]["c"]) in self.geared]
-        return tuple(dict.fromkeys(each.point for each in (*coupled, *(gear.joint for gear in self.gears))))
+        followed = {each.name: self.plan.reaches(each.quantity.name or each.quantity) for each in self.struts if each.quantity is not None}
+        lengths = [name for name, behind in followed.items() if self.is_taken({*self.plan.strokes} & behind)]
+        return tuple(dict.fromkeys((*(each.point for each in (*coupled, *(gear.joint for gear in self.gears))), *lengths)))
 
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
         """Yield the drives of a contact: the quantity, the letter of the force that is conjugate to it, and its sign."""

@@ -233,9 +233,25 @@ def geared(u):
     return Geared
 
 
+def racked(u):
+    """A lever on a driven length, whose rack follows that length and the lever's angle by random numbers; one cylinder moves both."""
+
+    class Racked(Mechanism):
+        """A lever and a rack."""
+
+        S, O, K, J = Stroke(0.0, 0.35), Ground(0, 1), Ground(0.6, 0.3), Ground(u(-0.3, 0.0), u(-0.2, 0.2))
+        A = Dyad(K, O, KA=0.7 + u(0.5, 1.1) * S, OA=0.8, side=RIGHT)
+        T, rail = OnLink(O, A, OT=u(0.3, 0.6)), Guide((u(1, 2), u(-1, 2)), angle=u(0.3, 2.8))
+        P = OnGuide(rail, at=u(0.3, 2) * S - u(-0.5, 0.5) * (angle(O, A) - u(0, 1) * S) + 0.2)
+        ram = Cylinder(K, A, bore=63 * mm, rod=36 * mm) if u(-1, 1) > 0.0 else Cylinder(J, T, bore=63 * mm, rod=36 * mm)
+        on_A, on_P = Weight(A, mass=u(5, 50)), Weight(P, mass=u(5, 50))
+
+    return Racked
+
+
 @for_all("seed", range(3), slow=range(3, 100))
 def test_gears_carry_what_turns_with_a_cylinder_and_do_no_work(seed):
-    machine = geared(np.random.default_rng(seed).uniform)
+    machine, rack = geared(np.random.default_rng(seed).uniform), racked(np.random.default_rng(seed).uniform)
 
     class Carried(Mechanism):
         """It on a body that turns, seen from behind."""
@@ -244,13 +260,14 @@ def test_gears_carry_what_turns_with_a_cylinder_and_do_no_work(seed):
         Y = Crank(Z, ZY=1.0, angle=psi)
         part = Part(machine, on=(Z, Y), mirrored=True)
 
-    phi, psi = np.array([0.4, 0.6, 0.9]), np.array([0.0, 0.3, 0.5])
-    for whole, strokes, ram in ((machine(), {"phi": phi}, "ram"), (Carried(), {"psi": psi, "part.phi": phi}, "part.ram")):
+    phi, psi, S = np.array([0.4, 0.6, 0.9]), np.array([0.0, 0.3, 0.5]), np.array([0.05, 0.15, 0.3])
+    carried = Carried(), {"psi": psi, "part.phi": phi}, "part.ram"
+    for whole, strokes, ram in ((machine(), {"phi": phi}, "ram"), carried, (rack(), {"S": S}, "ram")):
         found = pin_forces(whole.at(**strokes))
         assert found.residual < 1e-12 and found.gap < 1e-12
         last, moved, energy = [*strokes][-1], 1e-5, []
         for step in (-moved, moved):
-            motion, ends = whole.at(**{**strokes, last: phi + step}), whole.plan.of_kind(Cylinder)[ram].ends
+            motion, ends = whole.at(**{**strokes, last: strokes[last] + step}), whole.plan.of_kind(Cylinder)[ram].ends
             heights = ((each.mass, motion[each.point][1]) for each in whole.plan.of_kind(Weight).values())
             energy.append((9.80665 * sum(mass * y for mass, y in heights), np.hypot(*(motion[ends[1]] - motion[ends[0]]))))
         by_hand = (energy[1][0] - energy[0][0]) / (energy[1][1] - energy[0][1])

@@ -695,7 +695,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return whether it buckles over all that a judge looks at, and against a stop."""
         worst = judge.answer(most(buckling_request(self, Acting())) <= 1.0)
         if np.isnan(worst.value) or not worst.value > TO_ROUNDING:
-            return [never_pushed(), *self.stopped(judge)]
+            return [never_pushed().answered(worst) if worst.lost else never_pushed(), *self.stopped(judge)]
         with unwarned():  # the verdict itself says what comes of it
             place, acting = judge.there(worst), judge.situation(worst)
             forces = self.rod_push(place, acting), member_thrust(place, self, acting)

@@ -15,7 +15,7 @@ from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, UnfitError, unwarned
 from ..frozen import immutable
 from ..language import heading_of, said
-from ..loads import PLAIN_CASE, LoadCase, TwoPoint, case_in_words
+from ..loads import PLAIN, PLAIN_CASE, LoadCase, TwoPoint, case_in_words
 from ..plan import Mask, name_or_pins, opening
 from ..quantities import Member
 from ..units import Amount, deg, display_unit, show, shown_number
@@ -144,6 +144,7 @@ class HasVerdicts(Member):
 
 
 HELD, DRIVES, PACE = "linkage.statics:held_verdict", "linkage.statics:drive_remarks", "linkage.statics:pace_remarks"
+THRUST = "linkage.statics:member_thrust"
 """What says of any machine whether it is held, what its drives give, where inertia is left out: in the room of forces, above."""
 
 
@@ -169,11 +170,13 @@ def judge_verdicts(judge: Judge, fault: str = "") -> list[Verdict]:
         found = assembly_verdicts(judge)
     else:
         found, said_of = geometry_verdicts(judge), member_verdicts(judge.lost_allowed(), fault)
-        is_assembled = not fault and all(found)
-        for each in said_of:
-            lost = each.answer.lost if is_assembled and each.ok and each.answer is not None else NONE_LOST
+        is_whole = not fault and all(found)
+        for each in said_of:  # what a dead point takes at the end of a stroke is told with it, a pose that stands in one by each rule
+            is_lost = each.ok and each.answer is not None and (is_whole or not (fault or each.answer.width))
+            lost = each.answer.lost if is_lost else NONE_LOST
             if lost and not lost.strokes:  # a kept rule is a fault where its quantity has no value at some assembled places
-                text = said("{lost}; elsewhere: {sentence}", lost=each.answer.lost_words, sentence=each.sentence)
+                words = {"lost": each.answer.lost_words, "sentence": each.sentence}
+                text = said("{lost}; elsewhere: {sentence}", **words) if lost.share < 1.0 else f"{each.answer.lost_words}."
                 each = Verdict(each.rule, False, text, each.heading, each.answer).said_by(each.member)
             found.append(each)
     return [*found, *map(Remark, filter(None, told)), *([] if fault else [*from_above(PACE)(judge), *from_above(DRIVES)(judge)])]
@@ -225,7 +228,7 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
         for name, limits in stroke_search.limits(place.motion, moved).items():
             for is_behind, away, text in nearest_dead_points(place.motion, limits, spans[name]):
                 nearest[name, is_behind] = min((away, text), nearest.get((name, is_behind), (away, text)))
-            for each in dead_point_verdicts(place.motion, limits, spans[name], is_pushed(judge, name)):
+            for each in dead_point_verdicts(place, limits, spans[name], is_pushed(judge, name)):
                 if not (together and each.rule == "dead points"):
                     found.setdefault((name, each.rule), []).append(each)
     told = [each for known in found.values() for each in dict.fromkeys(known)]
@@ -234,6 +237,8 @@ def dead_points_over(judge: Judge) -> list[Verdict]:
         return told
     strokes, places = ", ".join(dict.fromkeys(name for name, _ in clear)), "; ".join(text for _, text in clear)
     text = said("none within the stroke; the nearest: {places}.", places=places)
+    if any(place.over.only or place.over.shape == "poses" for place in judge.places):  # others may lie between what is asked
+        text = said("none where it runs; the nearest beyond: {places}.", places=places)
     if any(rule == "dead points" for _, rule in found):  # along another stroke
         text = said("none along {strokes}; the nearest: {places}.", strokes=strokes, places=places)
     return [Verdict("dead points", True, text), *told]
@@ -335,14 +340,14 @@ def nearest_dead_points(motion: Motion, limits: StrokeLimits, span: tuple[float,
             yield bool(is_behind), away, f"{place_of(motion, limits, value, stop, step)}, {distance}"
 
 
-def dead_point_verdicts(motion: Motion, limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:
-    """Yield the stops and turns of a motion along one stroke, within the part that runs.
+def dead_point_verdicts(place: Domain, limits: StrokeLimits, span: tuple[float, float], pushed: bool) -> Iterator[Verdict]:
+    """Yield the stops and turns along one stroke, within the part that runs and at places that are asked for.
 
     At an end it is a fault where it is `pushed` by a cylinder, which cannot start from there.
     """
-    low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
+    motion, (low, high) = place.motion, span if span[0] < span[1] else sorted((limits.start, limits.end))
     near = NEAR_END * (high - low)
-    points = {each: max(low - each[0], each[0] - high) for each in limits.dead_points}
+    points = {each: max(low - each[0], each[0] - high) for each in limits.dead_points if is_asked(place, limits, each[0], near)}
     inside = "; ".join(place_of(motion, limits, *each) for each, away in points.items() if away < -near)
     at_end = "; ".join(place_of(motion, limits, *each) for each, away in points.items() if abs(away) <= near)
     passed = said("{places}, within the stroke: no drive passes there. Shorten the stroke or change a length.", places=inside)
@@ -351,18 +356,40 @@ def dead_point_verdicts(motion: Motion, limits: StrokeLimits, span: tuple[float,
         yield Verdict("dead points", False, " ".join([passed] * bool(inside) + [begun] * bool(at_end and pushed)))
     elif at_end:
         yield Verdict("dead points", None, said("{places}, where the stroke ends: no ratio and no force has a value there.", places=at_end))
-    crossing = [place_of(motion, limits, value, step) for value, step in limits.change_points if low - near <= value <= high + near]
+    crossing, still = (
+        [each for each in known if low - near <= each[0] <= high + near and is_asked(place, limits, each[0], near)]
+        for known in (limits.change_points, limits.cylinder_dead_points)
+    )
     if crossing:
-        places = "; ".join(crossing)
+        places = "; ".join(place_of(motion, limits, *each) for each in crossing)
         text = said("branches cross: {places}; there the motion may go on either way. Change a length, or guide it.", places=places)
         yield Verdict("change points", False, text)
-    still = [place_of(motion, limits, value, name) for value, name in limits.cylinder_dead_points if low - near <= value <= high + near]
+    still = [each for each in still if not is_carried(motion, limits, *each)]
     if still:
         text = said(
             "its length stands still: {places}; there its thrust moves nothing. Move its pins, or keep away from there.",
-            places="; ".join(still),
+            places="; ".join(place_of(motion, limits, *each) for each in still),
         )
         yield Verdict("cylinder's dead point", False, text)
+
+
+def is_asked(place: Domain, limits: StrokeLimits, value: float, near: float) -> bool:
+    """Return whether a machine runs at a value of a stroke, the others held: at poses to what is `near`, else where conditions hold."""
+    there = StrokeLine(place.motion, limits.stroke, {name: at for name, at, _ in limits.held}).motion_at(np.array([value]))
+    if place.over.shape == "poses":
+        return bool(np.all([abs(given - there.strokes[name]) <= near for name, given in place.motion.strokes.items()], axis=0).any())
+    with unwarned():
+        return bool(place.over.condition_mask(there).all())
+
+
+def is_carried(motion: Motion, limits: StrokeLimits, value: float, cylinder: str) -> bool:
+    """Return whether a cylinder whose length stands still along one of several strokes has a thrust there: it holds another stroke."""
+    if len(motion.plan.strokes) < 2:
+        return False
+    there = StrokeLine(motion, limits.stroke, {name: at for name, at, _ in limits.held}).motion_at(np.array([value]))
+    with suppress(DefinitionError), unwarned():
+        return bool(np.isfinite(from_above(THRUST)(there, motion.plan.members[cylinder], PLAIN)).all())
+    return False
 
 
 def place_of(motion: Motion, limits: StrokeLimits, value: float, name: str, words: str = "") -> str:

@@ -20,7 +20,7 @@ from ..program import FloatArray, Node
 from ..units import show
 from ..verdict import Remark, Verdict
 from .applied import applied_elements, applied_loads, plan_in_case, rates_in
-from .holding import closed_ties, holders_of
+from .holding import closed_ties, holders_of, levers_of, nearness_of, where_held
 from .joint_forces import JointForce, PinForces, joint_forces, joint_on, joints_of
 from .joints import Contact, Structure
 from .law_requests import LawInPlan, LawRequest, TracedMotion, eliminated_forces, law_in_plan, once_in, request_text, situation_identity
@@ -162,6 +162,9 @@ class JointPart:
             motion = held_in_case(motion, acting)
             applied = applied_loads(motion, acting, rates_in(motion, acting))
             system, u = eliminated_forces(structure_of(motion.plan, applied.elements, applied.thrusts), motion, applied)
+            holders = system.structure.holders
+            if holders.lines and not holders.changes_shares:  # without a value where the cylinders do not hold, as their thrusts
+                u = where_held(nearness_of(holders, [levers_of(system.poses, holders, holders.senses[0])]), u)
             for each in assumed_joints(system.structure, system.poses):
                 motion.notes.assumed.setdefault(motion.node(each[0]), "its joints")
             kept[shared] = motion, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool))

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from hydraulics import Cylinder, LiftCircuit, reserve
+from hydraulics import Cylinder, LiftCircuit, reserve, thrust
 from linkage import (
     LEFT,
     RIGHT,
@@ -15,13 +15,18 @@ from linkage import (
     Ground,
     Guide,
     Mechanism,
+    OnGuide,
     OnLink,
     Over,
+    SingularError,
     SliderDyad,
     Stroke,
     Weight,
+    angle,
+    distance,
     least,
     most,
+    pin_force,
     reachable,
     ref,
     x,
@@ -153,6 +158,63 @@ def test_a_law_without_a_value_at_some_places_fails_in_its_own_words():
     assert not verdicts["lifting"].ok and "it has no value at places that were looked at; elsewhere: at 30 bar" in verdicts["lifting"]
     (answer,) = Gusty().answers([least(reserve("act")) >= 1.0])
     assert answer.ok is False and answer.status == "lost" and "has no value" in str(answer)
+
+
+def jib(arm, foot, runs):
+    """Return a jib on a ram, whose foot a screw sets along an upright rail."""
+
+    class Jib(Mechanism):
+        phi, t = Stroke(-80 * deg, 60 * deg), Stroke(0.0, 0.3)
+        O, rail = Ground(0, 1.0), Guide(foot, angle=90 * deg)
+        K = OnGuide(rail, at=t)
+        B = Crank(O, OB=arm, angle=phi)
+        T = OnLink(O, B, OT=2.0)
+        load = Weight(T, mass=200)
+        lift = Cylinder(K, B, bore=80 * mm, rod=45 * mm, works="both")
+        pump = LiftCircuit(lift, pressure=180 * bar)
+        way = runs
+
+    return Jib()
+
+
+def fails(machine):
+    return {each.rule for each in machine.verdicts() if each.ok is False}
+
+
+RULES = {"buckling", "holding", "lifting"}
+
+
+@first_daily(2, "seed", range(12))
+def test_a_dead_point_counts_where_the_machine_runs_and_for_the_stroke_that_the_cylinder_holds(seed):
+    random = np.random.default_rng(seed)
+    arm, foot = random.uniform(0.6, 1.0), (random.uniform(0.4, 0.6), random.uniform(0.1, 0.3))
+    dead = float(np.arctan2(foot[1] - 1.0, foot[0]))  # with the foot at t = 0
+    held, beyond = {"t": 0.0}, dead + 15 * deg
+    assert fails(jib(arm, foot, Over(phi=(dead - 0.1, 0.5), **held))) >= RULES | {"cylinder's dead point"}
+    assert not fails(jib(arm, foot, Over(phi=(beyond, 0.5), **held)))
+    assert not fails(jib(arm, foot, Over(only=[angle("O", "B") >= beyond, angle("O", "B") <= 0.5], **held)))
+    assert not fails(jib(arm, foot, Over.poses(phi=[dead - 0.1, beyond, 0.5], **held)))
+    assert not fails(jib(arm, foot, Over(phi=(beyond, 0.5), t=(0.0, 0.05))))
+    # a pose that stands in it has no force: no rule over it is kept, and no value is told
+    for poses in ([dead], [dead, 0.3]):
+        machine = jib(arm, foot, Over.poses(phi=poses, **held))
+        assert fails(machine) >= RULES
+        forces = machine.evaluate([pin_force("O"), thrust("lift")], phi=np.array([dead, 0.3]), t=0.0, unreachable="nan")
+        assert [np.isnan(each).tolist() for each in forces] == [[True, False]] * 2
+        with pytest.raises(SingularError):
+            machine.evaluate([pin_force("O")], phi=dead, t=0.0)
+
+
+@first_daily(2, "seed", range(12))
+def test_a_length_that_stands_still_along_a_screw_is_no_dead_point_of_what_the_cylinder_holds(seed):
+    random = np.random.default_rng(seed)
+    arm, foot = random.uniform(0.7, 0.9), (random.uniform(0.3, 0.38), 0.2)
+    start = -float(np.arcsin((1.0 - foot[1] - 0.26) / arm))  # there the ram lies level where t = 0.26, and does not follow the screw
+    machine = jib(arm, foot, Over(phi=(start, 60 * deg)))
+    limits = machine.sweep(phi=start, t=5).limits()["t"]
+    assert limits.cylinder_dead_points and not fails(machine)
+    there = machine.at(phi=start, t=limits.cylinder_dead_points[0][0])
+    assert abs(there.ratio(distance("K", "B"), wrt="t")) < 1e-9 and np.isfinite(there[thrust("lift")])
 
 
 class Rocker(Mechanism):

@@ -28,6 +28,7 @@ from linkage import (
 )
 from linkage.motion import condition, evaluation, gap
 from linkage.motion.stroke_search import limits
+from linkage.program.kernel import READ_FIRST
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.toggle_press import TogglePress
@@ -73,7 +74,8 @@ def test_a_call_that_was_made_before_goes_through_few_functions_and_makes_nothin
         "own loads": (lambda: hitch.evaluate([drive_force(loads=load)], S=0.1), 60),
     }
     for what, (run, most) in runs.items():
-        run()
+        for _ in range(READ_FIRST + 1):
+            run()
         made = list(hitch.plan._kernels)
         assert functions_called(run) <= most, what
         assert list(hitch.plan._kernels) == made, what

@@ -199,7 +199,7 @@ def way_back(
     goes, sense = ram.goes(motion, running), -1.0 if way == "retracting" else 1.0
     acting = acting.towards(way) if goes is None else running
     asks, drained, out, into = sums_back(ram, line, motion, acting, way)
-    is_turned = out * ram.sized(motion, way).sense < 0.0  # past its dead point the others take it along
+    is_turned = out * sense > 0.0  # what empties is greater while it grows: past its dead point the others take it along
     if goes is None and len(line.rams(motion)) > 1 and changes_in_motion(motion, acting.loads):
         (other,) = {"extending", "retracting"} - {way}
         asks = np.where(is_turned, sums_back(ram, line, motion, acting.towards(other), other)[0], asks)

@@ -17,11 +17,11 @@ from hydraulics import (
     pressure,
     reserve,
 )
-from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, report
+from linkage import LEFT, RIGHT, Dyad, Force, Ground, Guide, Mechanism, OnGuide, OnLink, Over, Stroke, Weight, ramp, report
 from linkage.errors import DefinitionError
 from linkage.motion import least, most, pose_sentence, reachable
 from linkage.motion.motion_verdicts import told_apart
-from linkage.units import bar, litre, minute, mm
+from linkage.units import bar, deg, litre, minute, mm
 from tests.members import told_by
 
 
@@ -48,6 +48,41 @@ def test_two_that_work_both_ways_share_by_the_area_that_works():
         first, second = (each.thrust(motion) for each in (made.a, made.b))
         areas = [np.where(first < 0.0, each.size.pull_area, each.size.push_area) for each in (made.a, made.b)]
         assert np.allclose(first * areas[1], second * areas[0], rtol=1e-12)
+
+
+def hung(force, works, efficiency, way, top=None):
+    """Return a post that a force acts on along it, on a cylinder below and, where said, on one above that is on the same line."""
+
+    class Hung(Mechanism):
+        S = Stroke(0.0, 0.4)
+        O, Q = Ground(0, 0), Ground(0, 3.0)
+        rail = Guide(O, angle=90 * deg)
+        P = OnGuide(rail, at=1.0 + S)
+        load = Force(P, (0.0, force))
+        ram = Cylinder(O, P, bore=100 * mm, rod=60 * mm, works=works)
+        over = top and Cylinder(Q, P, bore=80 * mm, rod=50 * mm, works=top)
+        line = LiftCircuit([ram, over] if top else ram, 180 * bar, mechanical_efficiency=efficiency)
+        runs = Over.path(S=ramp(*way, speed=0.1, acceleration=0.5))
+
+    return Hung()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_way_back_of_both_sides_is_that_of_the_one_that_the_load_asks_for(seed):
+    random = np.random.default_rng(seed)
+    force, k_m = random.choice([-1.0, 1.0]) * random.uniform(10e3, 50e3), random.uniform(0.7, 0.95)
+    down, one, other = ((0.38, 0.02), "piston", "rod") if force < 0.0 else ((0.02, 0.38), "rod", "piston")
+    areas = [np.pi / 4.0 * (bore**2 - (works == "rod") * rod**2) for works, bore, rod in ((one, 0.1, 0.06), (other, 0.08, 0.05))]
+    for top, area in ((None, areas[0]), ("other", sum(areas))):  # the one above goes in as the one below comes out
+        right = abs(force) / area * k_m  # the load drives: of its force friction leaves so much
+        for works, above in ((one, other), ("both", "both")):
+            machine = hung(force, works, k_m, down, top and above)
+            found = machine.line.lowering(machine.sweep(3))
+            assert np.allclose(found.working, right, rtol=1e-9) and found.by_itself.all()
+            assert not machine.line.lowering(machine.sweep(3), resistance=1.01 * right).by_itself.any()
+            assert all(each.ok for each in machine.verdicts() if each.rule.startswith("lowering"))
+            back = hung(force, works, k_m, down[::-1], top and above).verdicts()
+            assert {each.ok for each in back if each.rule.startswith("lowering")} == {None}  # it is lifted all the way
 
 
 def test_at_one_pose_no_oil_is_taken():

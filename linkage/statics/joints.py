@@ -22,6 +22,7 @@ from ..program import FloatArray
 from ..quantities import (
     Angle,
     Coordinate,
+    Distance,
     Driven,
     Joint,
     JointSide,
@@ -454,10 +455,14 @@ class Structure:
 
     def shared_strokes(self) -> set[frozenset[str]]:
         """Return the strokes taken over that more joints follow than they are themselves, as geared cranks do, or a rack beside a body."""
-        followed = [(each, frozenset(names)) for each in self.plan.joints for names in self.followed(each[1])[0].values()]
-        racks = {names for (name, joint), names in followed if any(geared_to(self.plan, joint, name))}
-        count = Counter(names for _, names in followed)
-        return {names for names, joints in count.items() if self.is_taken({*names}) and (joints > len(names) or names in racks)}
+        plan, joints = self.plan, [(each, frozenset(names)) for each in self.plan.joints for names in self.followed(each[1])[0].values()]
+        shared = {names for names, count in Counter(names for _, names in joints).items() if count > len(names)}
+        shared |= {names for (name, joint), names in joints if any(geared_to(plan, joint, name))}
+        driven = [bar.length for bar in plan.cylinders] + [drive.quantity for _, joint in plan.joints for drive in joint.drives]
+        for given in driven:  # what follows another length that is driven
+            if any(is_driven(plan, each) for _, term in signed_terms(given, plan.members) for _, each in plan.factors(term)):
+                shared.add(frozenset({*plan.strokes} & plan.reaches(given)))
+        return {names for names in shared if self.is_taken({*names})}
 
     def turned_by_gears(self) -> tuple[str, ...]:
         """Return where gears give couples or forces: pivots of cranks and racks geared to a body or to each other, lengths beside racks."""
@@ -644,8 +649,16 @@ def angle_ends(angle: Angle) -> tuple[str, str]:
 
 
 def follows_points(plan: Plan, quantity: Quantity) -> bool:
-    """Return whether a quantity depends on moving points, and not on strokes and dimensions alone."""
-    return any(isinstance(plan.members[name], Point) and name in plan.moving for name in plan.reaches(quantity))
+    """Return whether a quantity depends on moving points, and not on strokes, dimensions and driven lengths alone."""
+    factors = [each for _, term in signed_terms(quantity, plan.members) for _, each in plan.factors(term)]
+    names = plan.reaches(*(each for each in factors if not is_driven(plan, each)))
+    return any(isinstance(plan.members[name], Point) and name in plan.moving for name in names)
+
+
+def is_driven(plan: Plan, quantity: Quantity) -> bool:
+    """Return whether a quantity is the distance of two points whose length a step drives."""
+    length = plan.table.lengths.get(frozenset(map(name_of, quantity.parts()))) if isinstance(quantity, Distance) else None
+    return length is not None and plan.moves(length)
 
 
 # What a joint transmits at the poses: the columns of the equations of equilibrium.

@@ -234,7 +234,7 @@ def geared(u):
 
 
 def racked(u):
-    """A lever on a driven length, whose rack follows that length and the lever's angle by random numbers; one cylinder moves both."""
+    """A lever on a driven length, whose rack and a second length follow that and its angle by random numbers; one cylinder moves all."""
 
     class Racked(Mechanism):
         """A lever and a rack."""
@@ -242,9 +242,11 @@ def racked(u):
         S, O, K, J = Stroke(0.0, 0.35), Ground(0, 1), Ground(0.6, 0.3), Ground(u(-0.3, 0.0), u(-0.2, 0.2))
         A = Dyad(K, O, KA=0.7 + u(0.5, 1.1) * S, OA=0.8, side=RIGHT)
         T, rail = OnLink(O, A, OT=u(0.3, 0.6)), Guide((u(1, 2), u(-1, 2)), angle=u(0.3, 2.8))
-        P = OnGuide(rail, at=u(0.3, 2) * S - u(-0.5, 0.5) * (angle(O, A) - u(0, 1) * S) + 0.2)
+        P = OnGuide(rail, at=u(0.3, 2) * S - u(-0.5, 0.5) * (angle(O, A) - u(0, 1) * S) + u(0, 1) * distance(A, K))
+        M = Ground(2, u(0.8, 1.2))
+        B = Dyad(K, M, KB=0.3 + u(0.7, 0.9) * distance(K, A), MB=u(1.2, 1.3), side=LEFT) if u(-1, 1) > 0.0 else Ground(1, 0)
         ram = Cylinder(K, A, bore=63 * mm, rod=36 * mm) if u(-1, 1) > 0.0 else Cylinder(J, T, bore=63 * mm, rod=36 * mm)
-        on_A, on_P = Weight(A, mass=u(5, 50)), Weight(P, mass=u(5, 50))
+        on_A, on_P, on_B = (Weight(each, mass=u(5, 50)) for each in (A, P, B))
 
     return Racked
 

@@ -43,8 +43,8 @@ STRONGEST = 1.0
 
 def all_finite(value: ArrayLike, what: str, kind: str = "") -> Array:
     """Return the value as floats, its shape kept; DefinitionError if it is text, NaN or infinite."""
-    if type(value) in (float, np.float64) and -np.inf < value < np.inf:  # type: ignore[operator]
-        return np.asarray(value)
+    if type(value) in (float, np.float64, int) and -np.inf < value < np.inf:  # type: ignore[operator]
+        return np.asarray(value, np.float64)
     array = _floats(value, what, kind)
     if not is_traced(array) and not array.size:
         raise DefinitionError(f"{what} = {cited(value)} holds no number; give one at least, in SI units.")
@@ -68,7 +68,7 @@ def one_design(value: ArrayLike) -> float:
 
 def without(array: Array, bad: Any, what: str, fault: str) -> Array:
     """Return an array; DefinitionError where some of it is `bad`, with the largest of that put into the words of the fault."""
-    if np.any(bad):
+    if bad if isinstance(bad, np.bool_) else np.any(bad):
         raise DefinitionError(f"{what} = {fault.format(f'{max(array[bad], key=abs):.6g}')}.")
     return array
 

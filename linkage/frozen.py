@@ -76,7 +76,7 @@ def frozen_copy(value: Any) -> object:
     return value
 
 
-UNCHANGING = (bool, int, float, str, type(None))
+UNCHANGING = (bool, int, float, str, type(None), np.float64)
 """Types of values that are their own frozen copies."""
 
 

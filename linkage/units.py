@@ -398,7 +398,8 @@ def shown_number(value: float, unit: str, digits: int | str = 6, missed: float |
     `digits`: how many count, or a format, ".1f", "+.0f", "z.0f", ".4g", whose decimals hold for `unit` itself. There are as many more as
     tell it from a limit that is `missed`: "170.02" where the limit is 170.
     """
-    unit_or_none(unit, where="")
+    if unit not in UNITS:
+        unit_or_none(unit, where="")
     given: Any = value
     is_one = isinstance(given, (float, int)) or getattr(given, "shape", None) == ()
     form = _FORMAT.fullmatch(f".{digits}g" if isinstance(digits, int) and not isinstance(digits, bool) else str(digits))

@@ -127,6 +127,12 @@ class Answer:
         kept = "" if np.ndim(self.value) or self.ok is None else ": kept" if self.ok else ": not kept"
         return f"<Answer to {self.question}{kept}; {self}>"
 
+    def _to(self, question: object) -> Self:
+        """Return it as the answer to a question that is the same in other words."""
+        found = object.__new__(type(self))
+        vars(found).update(vars(self), question=question)
+        return found
+
     @property
     def unbounded(self) -> PerDesign:
         """Whether it grows without bounds."""

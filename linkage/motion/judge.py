@@ -771,7 +771,7 @@ class Judge:
                 found.append(self.worst(question, each))
         kept.update((key, each) for (key, *_), each in zip(held, found, strict=True) if not each.lost)  # what is lost is told in a language
         pairs = zip(held, found, strict=True)
-        return [each if each.question is question else replace(each, question=question) for (_, question, _), each in pairs]
+        return [each if each.question is question else each._to(question) for (_, question, _), each in pairs]
 
     def find(self, number: int, leaves: Sequence[Leaf]) -> None:
         """Find the worst of some leaves over one `Over`, by its number, in one pass; known results are reused."""

@@ -35,7 +35,7 @@ class PlainFloats:
         self.plan = plan
         self._latest: tuple[bytes, tuple[float, ...]] = b"none", ()
         self._latest_of: tuple[Mapping[str, float], tuple[float, ...]] = {}, ()
-        self._read = 0
+        self._runs = 0
 
     @cached_property
     def quick(self) -> Mapping[str, Callable[..., tuple[float, ...]]]:
@@ -70,7 +70,8 @@ class PlainFloats:
         What the pose part needs of the latest design is kept by the dictionary itself, which does not change.
         """
         row = [strokes[name].item() for name in self.plan.input_names[1]]
-        if self._read < READ_FIRST and (first := self.first_poses([design[name] for name in self.plan.input_names[0]], [row])):
+        first = None if self._runs > 1 else self.first_poses([design[name] for name in self.plan.input_names[0]], [row])
+        if first is not None:
             return first[0]
         known, passed = self._latest_of
         if known is not design:
@@ -82,14 +83,16 @@ class PlainFloats:
             return self.careful["pose"](*passed, *row)
 
     def first_poses(self, design: Sequence[float], rows: Sequence[Sequence[float]]) -> list[tuple[float, ...]] | None:
-        """Return outputs and guards of the first few poses, read from the nodes, as a text and its code cost far more; None later on."""
-        plan, found = self.plan, list[tuple[float, ...]]()
-        self._read += len(rows)
-        for row in rows if self._read <= READ_FIRST else ():
+        """Return outputs and guards of a large program's first poses, read from its nodes: its text and code cost far more; else None."""
+        plan, self._runs = self.plan, self._runs + 1
+        if self._runs > 2 or len(rows) > READ or len(plan.design) + len(plan.pose) < LARGE:
+            return None
+        found = []
+        for row in rows:
             known = dict(zip((*plan.design_inputs, *plan.pose_inputs), (*design, *row), strict=True))
             values = values_by_node((*plan.design, *plan.pose), known, ON_FLOATS)
             found.append(tuple([each.value if each.op == "constant" else values[each] for each in (*plan.outputs, *plan.guards)]))
-        return found or None
+        return found
 
     def poses(self, design: Sequence[float], columns: Sequence[Sequence[float]], n: int) -> list[tuple[float, ...]]:
         """Return outputs and guards pose by pose."""
@@ -128,8 +131,8 @@ class PlainFloats:
                 guards[k] = math.nan if any(map(math.isnan, seen)) else min(seen)  # no comparison sees NaN
 
 
-READ_FIRST = 24
-"""So many poses of a program are read from its nodes before it is written as a text and compiled."""
+LARGE, READ = 400, 8
+"""A program of so many operations is read from its nodes the first two times, for so few poses."""
 
 
 def one_float(value: Numbers) -> float:

@@ -62,8 +62,7 @@ def values_by_node(nodes: Iterable[Node], known: Mapping[Node, object], function
     """Return known values and those of nodes, worked out one by one: a program that runs a few times is not worth its text."""
     values = dict(known)
     for node in nodes:
-        args = [arg.origin for arg in node.args]
-        values[node] = functions[node.op](*[arg.value if arg.op == "constant" else values[arg] for arg in args])
+        values[node] = functions[node.op](*[values.get(arg.origin, arg.origin.value) for arg in node.args])
     return values
 
 

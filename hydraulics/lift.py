@@ -628,13 +628,19 @@ class LiftingCylinder:
             text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}; no pump is on its other side.", **by)
         else:
             text = said("it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.", **by)
+            supply = float(self.circuit.supply(judge.motion))
+            enough = push.value <= supply * (1.0 + 1e-9)
             if self.ram.side == "both":
-                enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)
                 by["direction"] = said("extending") if way == "extending" else said("retracting")
                 text = said(
                     "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
                     **by,
                 )
+            by["pump"], is_both = self.show(supply), self.ram.side == "both"
+            if works_by_lines(self.ram, judge.plan.members) is None and not (is_both and enough):
+                remedy = said('The pump gives {pump}: works="both" lets it push.', **by)
+                text = f"{text} {remedy if enough else said('The pump gives {pump} only.', **by)}"
+            enough = enough and is_both
         return Verdict("lowering", enough, text, answer=push)
 
     @property

@@ -293,6 +293,13 @@ def test_the_push_that_lowers_is_what_the_other_side_has_to_have(tmp_path):
         assert found.ok is False and push > tank
         assert by_rule(made(**{"drain.pressure": push}), "line")["lowering"].ok
         assert not by_rule(made(**{"drain.pressure": 0.995 * push}), "line")["lowering"].ok
+    for pump in (160 * bar, 0.5 * push):  # a circuit that works both ways may push, which the rule on lifting judges then
+        given = {"load": Force("G", (0.0, pulls)), "line": LiftCircuit("ram", pump), "back": None, "supply": None, "drain": None}
+        one_sided = by_rule(type("OneSided", (Hung,), given)(), "line")["lowering"]
+        ram = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, works="both")
+        both, enough = by_rule(type("BothSides", (Hung,), given | {"ram": ram})(), "line"), pump > push
+        assert one_sided.ok is False and ('works="both" lets it push' in one_sided) is enough and both["lowering"].ok
+        assert both["lifting"].ok is enough and f"The pump gives {pump / bar:.4g} bar" in one_sided
     told = f"| lowering line | **not kept** | {found.answer.value / bar:.4g} bar |"  # what is measured, to the nearest
     assert told in report(made(), tmp_path / "pulled.md").read_text()
 

@@ -75,7 +75,7 @@ def require_rates(plan: Plan, kernel: Kernel, known: Container[str]) -> None:
     if missing:
         what = f"{plan.title}: what is asked for follows {', '.join(missing)}, and nothing says how fast the strokes move"
         timed = next((f', over="{name}"' for name, over in plan.of_kind(Over).items() if over.time is not None), "")
-        raise DefinitionError(f"{what}; give rates= and accelerations=, or ask over a path in time{timed}.")
+        raise DefinitionError(f"{what}; give rates= and accelerations= to evaluate, or sweep over a path in time{timed}.")
 
 
 def members_behind(plan: Plan, requests: Iterable[Request]) -> set[str]:

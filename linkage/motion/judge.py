@@ -22,9 +22,9 @@ from ..frozen import immutable, record
 from ..language import current_language, said
 from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..numeric.box import values_a_stroke
-from ..numeric.line import SAMPLES
+from ..numeric.line import SAMPLES, highest
 from ..numeric.quadrature import quadrature
-from ..plan import Mask, Plan
+from ..plan import Mask, Plan, rate_name
 from ..program import FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, is_whole, keywords
 from ..quantities.quantity import stands_for
@@ -33,7 +33,7 @@ from ..vectors import Numbers
 from .answer import LOST, LOST_SHARE, NONE_LOST, NOTHING_LEFT, OF_VALUE, PER_DESIGN, UNBOUNDED, Answer, LostPlaces, PerDesign
 from .evaluation import Evaluation
 from .functions import evaluate_bound
-from .grid import Grid, recalled
+from .grid import Grid, JoinedTo, recalled
 from .instants import Instants
 from .limits import LoopMargin, stroke_measure, stroke_unit
 from .measures import (
@@ -45,6 +45,7 @@ from .measures import (
     Leaf,
     Least,
     Measure,
+    Most,
     Reachable,
     Worst,
     check_condition,
@@ -67,8 +68,8 @@ from .strokes import at_values, strokes_over_axes
 Question: TypeAlias = "Measure | Condition"
 Made = TypeVar("Made")
 
-INNER = 65
-"""Values of the stroke over which `worst` is taken."""
+INNER = 129
+"""Values of the stroke over which `worst` is taken, between which it is looked for."""
 COARSE = 5
 """Values of each stroke of a coarse grid."""
 MET = 1e-9
@@ -107,7 +108,7 @@ class SearchRow:
     @classmethod
     def alone(cls, leaf: Leaf) -> SearchRow:
         """Return the row of a leaf as it stands, whole and in no situation but its own."""
-        return cls(leaf, SmoothPiece(leaf.quantity), Situation(), leaf.sense)
+        return cls(leaf, SmoothPiece(leaf.sought), Situation(), leaf.sense)
 
     @property
     def is_reciprocal(self) -> bool:
@@ -379,8 +380,53 @@ class Domain:
                     worst = np.where(value[k] > 0.0, 1.0 / value[k], np.nan)
             elif row.stays_at_zero:
                 worst = np.maximum(value[k], 0.0)
+            if isinstance(row.request, Worst):
+                found_there = {name: np.asarray(value) for name, value in where.items()}
+                there = Motion(self.plan, self.motion.designs, found_there, "nan", per_design=True)
+                where[row.request.over] = self.nested(there, row.request)[1]
             pieces.append(Candidate((row,), np.asarray(worst), where, unbounded[k], lawless[k], unlimited[k], time[k], leg[k]))
         return pieces, asked.seen
+
+    def nested(self, motion: Motion, worst: Worst) -> tuple[FloatArray, FloatArray]:
+        """Return the worst of a quantity over a further stroke at every pose, and where that stroke then stands [SI], shape (...).
+
+        It is looked for over what the stroke runs here, as far as that is asked for: between its values too, about the highest tops. Where
+        the stroke runs along with others, a pose has no worst if the machine is lost on the way.
+        """
+        name, ran, ways = worst.over, (self.motion if self.instants is None else self.sampled).strokes, motion._tangent or {}
+        own, known, lead = np.unique(ran[name]), list[Motion](), motion._design_shape if motion._grid.per_design else ()
+        given = motion.strokes | {rate_name(each): value for each, value in ways.items()}
+        flat = {each: np.reshape(value, (*lead, -1)) for each, value in given.items()}
+        back = np.arange(flat[name].shape[-1])
+        if not lead:  # poses that differ in this stroke alone are one
+            others = [value for each, value in flat.items() if each != name]
+            _, first, back = np.unique(others or np.zeros((1, back.size)), axis=1, return_index=True, return_inverse=True)
+            flat = {each: value[first] for each, value in flat.items()}
+        shape = (*motion._design_shape, flat[name].shape[-1])
+
+        def seen(along: FloatArray, joining: JoinedTo | None = None) -> FloatArray:
+            spread = {each: np.broadcast_to(value[..., None], along.shape) for each, value in flat.items()} | {name: along}
+            strokes, tangent = {each: spread[each] for each in motion.strokes}, {each: spread[rate_name(each)] for each in ways} or None
+            inner = Motion(self.plan, motion.designs, strokes, "nan", per_design=True, joining=joining, tangent=tangent)
+            known[:] = known or [inner]
+            lost = ~known[0].reached & self.over.condition_mask(known[0]) & (self.over.shape != "box")
+            asked = inner.reached & self.over.condition_mask(inner) & ~lost.any(axis=-1, keepdims=True)
+            return np.where(asked, worst.sense * values_over(inner, worst.quantity), np.nan)
+
+        def look(_: Any, t: FloatArray) -> tuple[FloatArray, Mask]:
+            t = np.broadcast_to(t, (int(np.prod(shape)), t.shape[-1])).reshape(*shape, -1)
+            near = np.arange(shape[-1])[:, None] * INNER + np.rint(t * (INNER - 1)).astype(int)
+            found = seen(own[0] * (1.0 - t) + own[-1] * t, JoinedTo(known[0]._grid, near) if known else None).reshape(1, -1, t.shape[-1])
+            return found, ~np.isnan(found[0])
+
+        if self.over.shape == "poses" or own.size == 1:
+            values = np.where(np.isnan(found := seen(np.broadcast_to(own, (*shape, own.size)))), -np.inf, found)
+            value, place = values.max(axis=-1), own[np.argmax(values, axis=-1)]
+        else:
+            best = highest(look, (INNER - 1,))
+            value, place = (each.reshape(shape) for each in (best.value, own[0] + np.ptp(own) * best.t))
+        value = np.where(np.isneginf(value), np.nan, worst.sense * value)
+        return value[..., np.ravel(back)].reshape(motion.shape), place[..., np.ravel(back)].reshape(motion.shape)
 
     # -- what is lost ------------------------------------------------------------------------------------
 
@@ -427,6 +473,12 @@ def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
     own = [each for each in elements if isinstance(each, ForceElement)]
     with unwarned():
         return any(each.feeds(plan.members) or each.frictions(motion) for each in own) or acting.rates is not None
+
+
+def follows_time(plan: Plan, quantity: object) -> bool:
+    """Return whether a quantity follows how fast the strokes move over a path in time."""
+    bound, rates = traced(plan, quantity), {rate_name(name, order) for name in plan.strokes for order in (1, 2)}
+    return is_of_force(quantity) or (bound is not None and not rates.isdisjoint(Kernel([*bound.nodes(plan)]).plan.input_names[1]))
 
 
 def case_named(plan: Plan, case: object) -> str:
@@ -520,7 +572,10 @@ class RowFunction:
             for k, row in enumerate(self.rows):
                 if k not in self._bound:
                     key = key_of(self.plan, row.request)
-                    values[k] = alone[key] = alone[key] if key in alone else values_over(motion, row.request)
+                    if key not in alone:
+                        is_nested = isinstance(row.request, Worst)
+                        alone[key] = self.place.nested(motion, row.request)[0] if is_nested else values_over(motion, row.request)
+                    values[k] = alone[key]
                 if row.is_reciprocal:
                     unlimited[k] = values[k] <= 0.0
                 if (np.isnan(values[k]) & motion.reached).any():
@@ -571,16 +626,6 @@ def gaps_kernel(plan: Plan, bound: Request) -> Kernel:
 def values_over(motion: Motion, quantity: Any) -> FloatArray:
     """Return a quantity over a motion's poses, infinite where a function says so; DefinitionError unless it is one number a pose."""
     plan = motion.plan
-    if isinstance(quantity, Worst):  # over another stroke at every pose
-        other = quantity.over
-        ensure(other in plan.strokes, f"{plan.title}: {quantity}: {other} is no stroke; its strokes are {', '.join(plan.strokes)}.")
-        along = np.linspace(plan.strokes[other].start, plan.strokes[other].end, INNER)
-        strokes = {name: np.broadcast_to(value[..., None], (*value.shape, INNER)) for name, value in motion.strokes.items()}
-        strokes[other] = np.broadcast_to(along, strokes[other].shape)
-        inner = Motion(plan, motion.designs, strokes, "nan", per_design=motion._grid.per_design)
-        found = quantity.sense * values_over(inner, quantity.quantity)
-        best = np.max(np.where(np.isnan(found), -np.inf, found), axis=-1)
-        return np.asarray(quantity.sense * np.where(np.isneginf(best), np.nan, best))
     if not is_quantity(quantity):
         with errors_of(f"{plan.title}: {words_of(quantity)}"):
             found = np.asarray(quantity(motion), float)
@@ -791,11 +836,19 @@ class Judge:
 
     def search_rows(self, leaf: Leaf, place: Domain) -> list[SearchRow]:
         """Return the pieces of a leaf over one `Over`, each once."""
-        request = situated(leaf.quantity, self.acting, keep=False)
+        request, worst = situated(leaf.bare_quantity, self.acting, keep=False), leaf.quantity
+        if isinstance(worst, Worst):
+            known = ", ".join(self.plan.strokes)
+            ensure(worst.over in self.plan.strokes, f"{self.plan.title}: {worst}: {worst.over} is no stroke; its strokes are {known}.")
+            in_time = place.instants is not None and follows_time(self.plan, request)
+            what = f"{self.plan.title}: {leaf}: it follows how fast the strokes move, which is known on the path in time alone"
+            ensure(not in_time, f"{what}; take {leaf.word}({words_of(request)}) there, forces in slow motion over=Over().")
         sense = leaf.sense or 1.0
         found: dict[Any, SearchRow] = {}
         for situation in place.situations(request, self.acting):
-            own = situated(request, situation.acting)
+            own: Any = situated(request, situation.acting)
+            if isinstance(worst, Worst) and (leaf.worst_over or place.over.shape != "box"):
+                own = replace(worst, quantity=own)
             pieces: Sequence[SmoothPiece] = (SmoothPiece(own),)
             if isinstance(own, Request) and not isinstance(leaf, Integral):  # the worst integral of a piece is not that of the worst
                 pieces = own.pieces(self.plan)
@@ -818,10 +871,11 @@ class Judge:
         """
         leaf = constraint.left
         bounds_worst = (leaf.sense, constraint.symbol) in ((-1.0, ">="), (1.0, "<="))
-        if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.quantity, Request)) or constraint.right.leaves:
+        if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.sought, Request)) or constraint.right.leaves:
             if not rubs(self.plan, self.motion, self.acting):
                 return [constraint]
-            asked = [each.quantity for each in (*leaf.leaves, *constraint.right.leaves) if isinstance(each.quantity, Request)]
+            each_of = [each.bare_quantity for each in (*leaf.leaves, *constraint.right.leaves)]
+            asked = [each for each in each_of if isinstance(each, Request)]
             known = dict.fromkeys(replace(each, case=None) for request in asked for each in self.actings(request))
             return [constraint, *(in_situation(constraint, each) for each in known if each.is_moving)]
         rows = [row for place in self.places for row in self.search_rows(leaf, place)]
@@ -834,15 +888,20 @@ class Judge:
         leaf = row.leaf
         assert isinstance(leaf, At)
         behind = strokes_behind(self.plan, leaf.quantity)
-        missing = [name for name in behind if name not in leaf.strokes]
+        missing = [name for name in behind if name not in leaf.strokes and name != leaf.worst_over]
         ensure(not missing, f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing)}.")
         start = {name: stroke.start for name, stroke in self.plan.strokes.items()}
         strokes = at_values(start | dict(leaf.strokes), self.plan)
+        if isinstance(worst := row.request, Worst):  # all that the further stroke runs
+            held: dict[str, Any] = {name: float(value) for name, value in strokes.items() if name != worst.over}
+            inner = (Most if worst.sense > 0.0 else Least)(worst.quantity)
+            (found,), seen = Domain(self.plan, self.designs, Over(**held)).searched([SearchRow.alone(inner)])
+            return replace(found, rows=(row,), lawless=np.maximum(found.lawless, seen.lost_share))
         motion = Motion(self.plan, self.designs, strokes, "nan")
         if not behind and not motion.reached.all():  # it is the same wherever the machine stands
             motion = self.sample_pose or motion
         with np.errstate(all="ignore"):
-            values, unlimited = RowFunction(place, [row]).row_values(motion)
+            values, unlimited = RowFunction(place if place.instants is None else self.anywhere, [row]).row_values(motion)
         value = np.asarray(values[0])
         where = {name: np.broadcast_to(np.asarray(each), value.shape) for name, each in strokes.items()} if behind else {}
         return Candidate((row,), value, where, np.isinf(value), 1.0 * (np.isnan(value) & ~unlimited[0]), 1.0 * unlimited[0])
@@ -1021,14 +1080,14 @@ def is_at_poses(question: object) -> bool:
 
 def leaf_key(plan: Plan, leaf: Leaf) -> Hashable:
     """Return a key of a leaf, valid as long as it lives."""
-    quantity = leaf.quantity
-    inner = (key_of(plan, quantity.quantity), quantity.over, quantity.sense) if isinstance(quantity, Worst) else key_of(plan, quantity)
     strokes = tuple(leaf.strokes.items()) if isinstance(leaf, At) else ()
-    return type(leaf).__name__, inner, strokes, leaf.by if isinstance(leaf, Integral) else None
+    return type(leaf).__name__, key_of(plan, leaf.quantity), strokes, leaf.by if isinstance(leaf, Integral) else None
 
 
 def key_of(plan: Plan, quantity: object) -> Hashable:
     """Return a key of a piece, valid as long as it lives."""
+    if isinstance(quantity, Worst):
+        return "worst", key_of(plan, quantity.quantity), quantity.over, quantity.sense
     identity = identity_of(plan, quantity)
     return id(quantity) if identity is None else identity
 
@@ -1049,7 +1108,7 @@ def combined_pieces(of_leaves: Sequence[Sequence[Candidate]]) -> list[tuple[Cand
             return True
         if one.acting.is_moving != other.acting.is_moving:
             return not moves[id(b if one.acting.is_moving else a)]
-        movers = (getattr(each.rows[0].leaf.quantity, "mover", None) for each in (a, b))
+        movers = (getattr(each.rows[0].leaf.bare_quantity, "mover", None) for each in (a, b))
         return len({*movers}) > 1 or (one.direction, one.drive) == (other.direction, other.drive)
 
     found: list[tuple[Candidate, ...]] = [()]
@@ -1115,7 +1174,7 @@ def measures_of(plan: Plan, question: object) -> str:
             kind = kind_of_quantity(plan, measure)
             return kind.name if kind is not None else ""
         case Leaf():
-            return measured_in(plan, stands_for(plan.members, measure.quantity))
+            return measured_in(plan, stands_for(plan.members, measure.bare_quantity))
     return ""
 
 
@@ -1124,7 +1183,7 @@ def turned_by(place: Domain, question: object) -> str:
     asked = question.left if isinstance(question, Constraint) else question
     if not isinstance(asked, Integral) or stroke_measure(place.plan, asked.by or place.running[0]) != "angle":
         return ""
-    kind = measured_in(place.plan, stands_for(place.plan.members, asked.quantity))
+    kind = measured_in(place.plan, stands_for(place.plan.members, asked.bare_quantity))
     return "" if kind in ("", "moment", "number") else "rad2" if kind == "angle" else "rad"
 
 
@@ -1132,12 +1191,16 @@ def integrated(row: SearchRow, place: Domain) -> Candidate:
     """Return the integral of a row over the one stroke that runs."""
     plan, leaf = place.plan, row.leaf
     assert isinstance(leaf, Integral)
-    if place.over.shape != "box" or len(place.running) != 1 or (leaf.by or place.running[0]) != place.running[0]:
-        by, here = stroke_of(plan, leaf.by or next(iter(plan.strokes))), f"here run {', '.join(place.running) or 'none'}"
+    if place.instants is not None:
+        what = f"{plan.title}: {leaf}: an integral is over one stroke, and {place.over.name or 'this path'} goes in time"
+        raise DefinitionError(f"{what}; over time take motion = machine.sweep(1001, over=...), np.trapezoid(motion[...], motion.time).")
+    running = [name for name in place.running if name != leaf.worst_over]
+    if place.over.shape != "box" or len(running) != 1 or (leaf.by or running[0]) != running[0]:
+        by, here = stroke_of(plan, leaf.by or next(iter(plan.strokes))), f"here run {', '.join(running) or 'none'}"
         here = here if place.over.shape == "box" else f"not along {place.over.name or 'a path'}"
         others = ", ".join([f"{by}=(...)", *(f"{each}=0.0" for each in plan.strokes if each != by)])
         raise DefinitionError(f"{plan.title}: {leaf}: an integral is over one stroke that runs, {here}; say over=Over({others}).")
-    (name,) = place.running
+    (name,) = running
     partly = f"{plan.title}: {leaf}: an integral goes over a whole stroke, and only= leaves out a part of it"
     ensure(not place.over.only, f"{partly}; give the ends of that part, over=Over({name}=(...)).")
     held = {each: float(np.min(value)) for each, value in place.motion.strokes.items()}

@@ -188,8 +188,14 @@ class Leaf(Measure):
 
     @property
     def worst_over(self) -> str:
-        """The further stroke over which the worst of the quantity is taken, "" for none."""
-        return self.quantity.over if isinstance(self.quantity, Worst) else ""
+        """The further stroke over which a worst of another sense is taken first; "" for none, and where all strokes are looked at alike."""
+        worst = self.quantity
+        return worst.over if isinstance(worst, Worst) and worst.sense != self.sense else ""
+
+    @property
+    def sought(self) -> MeasuredQuantity:
+        """What is looked for over all strokes that run: the quantity, or the worst of another sense."""
+        return self.quantity if self.worst_over else self.bare_quantity
 
     @property
     def leaves(self) -> tuple[Leaf, ...]:

@@ -22,7 +22,7 @@ from ..motion import Grid, Motion, NodeRequest, Request, at_values, each_at_its_
 from ..motion.evaluation import BulkProgram, Evaluation
 from ..motion.functions import evaluate_bound
 from ..motion.grid import JoinedTo, angles_of
-from ..motion.measures import At, Integral, Leaf, Measure, bound_quantity, constant_part, operation, strokes_behind, traced, words_of
+from ..motion.measures import At, Integral, Leaf, Measure, Worst, bound_quantity, constant_part, operation, strokes_behind, traced, words_of
 from ..motion.requests import Trait, may_be_unlimited, slope
 from ..motion.search import corners
 from ..numeric.line import Index
@@ -201,7 +201,7 @@ def zero_factors(plan: Plan, divisor: object) -> list[object]:
 
 def no_value(plan: Plan, leaf: Leaf) -> str:
     """Return in words that a leaf has no value of some design, and why."""
-    divisors = () if leaf.worst_over else divisors_of(plan, leaf.quantity)
+    divisors = () if leaf.worst_over else divisors_of(plan, leaf.bare_quantity)
     if not divisors:
         return f"{leaf} has no value at some poses"
     why = f"it is divided by {', '.join(map(words_of, divisors))}, and where it passes zero within the stroke, it grows without bounds"
@@ -499,7 +499,7 @@ def nothing_limits(motion: Motion, quantity: Any) -> Mask:
 def check_no_worst(leaf: Leaf) -> None:
     """Raise DefinitionError for a leaf that is over another stroke."""
     what = "a study of tolerances looks at the strokes it is given"
-    ensure(not leaf.worst_over, f"{leaf}: {what}; take most(...) over a grid of both strokes.")
+    ensure(not isinstance(leaf.quantity, Worst), f"{leaf}: {what}; take most(...) over a grid of both strokes.")
 
 
 def extreme_of(leaf: Leaf) -> np.ufunc:

@@ -338,8 +338,8 @@ class Problem:
     def _poses(self, leaf: Leaf, moving: Sequence[str]) -> tuple[PoseSet, int]:
         """Return the poses of a leaf, shared with others that are looked at at the same, and which single one it is, -1 for all."""
         title, inner, strokes = self.plan.title, leaf.worst_over, ", ".join(self.plan.strokes)
-        if inner:
-            known_name("Stroke", inner, self.plan.strokes, where=f"{title}: {leaf.quantity}")
+        if isinstance(leaf.quantity, Worst):
+            known_name("Stroke", leaf.quantity.over, self.plan.strokes, where=f"{title}: {leaf.quantity}")
         depends = strokes_behind(self.plan, leaf.bare_quantity)
         axes = tuple(name for name in moving if name in depends and name != inner)
         if isinstance(leaf, At):
@@ -524,8 +524,8 @@ class Problem:
         samples = found[poses]
         values = samples.values[place]
         slopes = np.zeros((0, values.shape[1])) if samples.value_slopes is None else samples.value_slopes[place]
-        if isinstance(leaf.quantity, Worst):
-            values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
+        if poses.inner and isinstance(leaf.quantity, Worst):
+            values, slopes = worst_along(values, slopes, poses.axes[poses.inner], leaf.quantity.sense)
         if single >= 0:
             values, slopes = values[:, [single]], slopes[:, [single]]
         lost = samples.lost[place]
@@ -646,8 +646,7 @@ class Problem:
         sampled: list[Leaf] = []
         for leaf in self.leaves:
             poses, *_ = self._of_leaf[leaf]
-            is_between = leaf.sense and poses.axes and not poses.inner
-            (between.setdefault(tuple(poses.axes), []) if is_between else sampled).append(leaf)
+            (between.setdefault(tuple(poses.axes), []) if leaf.sense and poses.axes else sampled).append(leaf)
         if sampled:
             self.count.add(len(sampled) - 1)  # as many looks as there are numbers
             found = self.evaluated(design).of_one
@@ -657,7 +656,7 @@ class Problem:
                 found[leaf] = float(self.panels(leaf, design).value) * (high - low)
         for names, leaves in between.items():
             box: dict[str, Any] = {name: end if name in names else end[0] for name, end in ends.items()}
-            owners = [(leaf, divisor) for leaf in leaves for divisor in divisors_of(self.plan, leaf.quantity)]
+            owners = [(leaf, divisor) for leaf in leaves for divisor in divisors_of(self.plan, leaf.bare_quantity)]
             asked = [*leaves, *(kind(divisor) for _, divisor in owners for kind in (Least, Most))]
             with unwarned():
                 seen, _ = Domain(self.plan, design, Over(**box)).searched([SearchRow.alone(leaf) for leaf in asked])
@@ -703,8 +702,8 @@ class Problem:
 
         def values(places: FloatArray) -> FloatArray:
             found = sampling.at(self._grid(PoseSet({name: places}, inner=poses.inner), design, ends)).values[place]
-            if isinstance(leaf.quantity, Worst):
-                found, _ = worst_along(found, np.zeros((0, found.shape[1])), len(poses.axes[poses.inner]), leaf.quantity.sense)
+            if poses.inner and isinstance(leaf.quantity, Worst):
+                found, _ = worst_along(found, np.zeros((0, found.shape[1])), poses.axes[poses.inner], leaf.quantity.sense)
             return np.asarray(found[0])
 
         return quadrature(values)
@@ -782,22 +781,26 @@ def missed(constraint: Constraint, numbers: Mapping[Leaf, Any], size: float) -> 
     return np.where(unlimited, 0.0, np.where(np.isnan(short), np.inf, short))
 
 
-def worst_along(values: FloatArray, slopes: FloatArray, count: int, sense: float) -> tuple[FloatArray, FloatArray]:
-    """Return the worst values along a last axis of so many samples, (m, n) from (m, n * count), and the derivatives there.
+def worst_along(values: FloatArray, slopes: FloatArray, marks: FloatArray, sense: float) -> tuple[FloatArray, FloatArray]:
+    """Return the worst values along a last axis of samples at some marks, (m, n) from (m, n * marks), and the derivatives there.
 
     A peak between samples is that of the parabola through three of them.
     """
-    cube = sense * values.reshape(len(values), -1, count)
+    cube = sense * values.reshape(len(values), -1, len(marks))
     filled = np.where(np.isnan(cube), -np.inf, cube)
-    top = np.clip(np.argmax(filled, axis=-1), 1, count - 2)[..., None]
+    top = np.clip(np.argmax(filled, axis=-1), 1, len(marks) - 2)[..., None]
     a, b, c = (np.take_along_axis(cube, top + shift, axis=-1)[..., 0] for shift in (-1, 0, 1))
+    before, after = (np.diff(marks)[top[..., 0] + by] for by in (-1, 0))
     with np.errstate(all="ignore"):
-        bend = a - 2.0 * b + c
-        shift = np.where(bend < 0.0, np.clip(0.5 * (a - c) / bend, -1.0, 1.0), np.where(c > a, 1.0, -1.0))
+        rise, fall = (b - a) / before, (c - b) / after
+        vertex = np.clip(-0.5 * (rise * after + fall * before) / (fall - rise), -before, after)
+        shift = np.where(fall < rise, vertex, np.where(c > a, after, -before))
         shift = np.where(np.isfinite(shift), shift, 0.0)
-    weights = np.stack([0.5 * shift * (shift - 1.0), 1.0 - shift**2, 0.5 * shift * (shift + 1.0)])
+    left, right = shift / before, shift / after
+    both = before + after
+    weights = np.stack([left * (shift - after) / both, (left + 1.0) * (1.0 - right), right * (shift + before) / both])
     best = sense * (weights[0] * a + weights[1] * b + weights[2] * c)
     best = np.where(np.isnan(cube).any(axis=-1), np.nan, best)
-    bunch = slopes.reshape(len(slopes), cube.shape[1], count)
+    bunch = slopes.reshape(len(slopes), cube.shape[1], len(marks))
     parts = [np.take_along_axis(bunch, np.broadcast_to(top[0] + each, (*bunch.shape[:2], 1)), axis=-1)[..., 0] for each in (-1, 0, 1)]
     return best, np.asarray(sum(weight[0] * part for weight, part in zip(weights, parts, strict=True)))

@@ -559,7 +559,7 @@ class Local:
 
     def _is_worse(self, leaf: Leaf, value: float, known: float) -> bool:
         """Return whether a leaf's value is noticeably worse than the known one."""
-        if isinstance(leaf, Integral):
+        if isinstance(leaf, Integral) or leaf.worst_over:
             return bool(abs(value - known) > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
         worse = (value - known) * leaf.sense
         return bool(leaf.sense) and bool(worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))

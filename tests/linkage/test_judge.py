@@ -12,6 +12,7 @@ from linkage import (
     RIGHT,
     Acting,
     Column,
+    Course,
     Crank,
     DefinitionError,
     Dimension,
@@ -33,11 +34,14 @@ from linkage import (
     integral,
     least,
     most,
+    optimise,
     pin_force,
     pin_forces,
+    ramp,
     ratio,
     reachable,
     ref,
+    speed,
     worst,
     x,
     y,
@@ -333,9 +337,79 @@ def test_measures_of_one_number():
         machine.answers([integral(y("D"))], over=Over.path(S=[0.0, 0.2], T=0.1))
     with pytest.raises(DefinitionError, match=r"say the pose, T=\.\.\."):
         machine.answers([at(y("D"), S=0.1)])
-    highest = machine.answers([least(worst(y("D"), over="T"))])[0]
-    grid = machine.sweep(S=41, T=65).y("D").max(axis=1).min()
-    assert_allclose(highest.value, grid, rtol=1e-6)
+
+
+class Cranks(Mechanism):
+    """A crank on a crank, whose farthest places stand between the ends of its strokes and between samples, and a narrow top."""
+
+    phi, psi = Stroke(0.0, 90 * deg), Stroke(0.05, 2 * np.pi + 0.05)
+    O, C = Ground(0.0, 0.0), Ground(0.0, 3.0)
+    P = Crank(O, OP=1.0, angle=phi)
+    Q = Crank(P, PQ=0.7, angle=psi)
+    narrow = 1 / (1e-4 + (x("Q") - x("P") - 0.35) ** 2)
+    load = Weight(Q, mass=100)
+    twice = LoadCase("twice", scale={"load": 2.0})
+    turning = Over.path(phi=ramp(0.2, 1.0, speed=0.4, acceleration=1.0), psi=Course([0.0, 3.0], [1.0, 2.0]))
+
+
+INSIDE = {
+    "the box": (Over(), (0.0, 90 * deg), (0.05, 2 * np.pi + 0.05)),
+    "a part": (Over(phi=(0.2, 1.1), psi=(100 * deg, 200 * deg)), (0.2, 1.1), (100 * deg, 200 * deg)),
+    "held": (Over(psi=0.6), (0.0, 90 * deg), (0.6, 0.6)),
+    "left out": (Over(only=[x("Q") <= 1.2]), (0.0, 90 * deg), (0.05, 2 * np.pi + 0.05)),
+    "a path": (Over.path(phi=[0.1, 0.5, 1.0], psi=[1.0, 1.5, 1.2]), (0.1, 1.0), (1.0, 1.5)),
+    "in time": (Cranks.turning, (0.2, 1.0), (1.0, 2.0)),
+    "poses": (Over.poses(phi=[0.0, 0.5, 1.0], psi=[1.0, 1.5, 1.2]), (0.0, 0.5, 1.0), (1.0, 1.2, 1.5)),
+}
+"""Where it is looked at, and what each stroke runs there."""
+
+
+@pytest.mark.parametrize("where", INSIDE)
+def test_the_worst_over_another_stroke_is_that_of_a_fine_grid_of_where_it_runs(where):
+    over, *spans = INSIDE[where]
+    machine, counts = Cranks(), (201, 4001)
+    values = [np.array(span) if len(span) > 2 else np.linspace(*span, count) for span, count in zip(spans, counts, strict=True)]
+    phi, psi = np.meshgrid(*values, indexing="ij")
+    at_x, at_y = np.cos(phi) + 0.7 * np.cos(psi), np.sin(phi) + 0.7 * np.sin(psi)
+    quantity, grid = distance("Q", "C"), np.hypot(at_x, at_y - 3.0)
+    grid = np.where(at_x <= 1.2, grid, np.nan) if over.only else grid
+    for by, inner in ((most, np.nanmax), (least, np.nanmin)):
+        for measure, outer in ((most, np.nanmax), (least, np.nanmin)):
+            found = machine.answers([measure(worst(quantity, over="psi", by=by))], over=over)[0]
+            assert_allclose(found.value, outer(inner(grid, axis=1)), atol=1e-3 if over.only else 3e-5, err_msg=f"{found.question}")
+            assert str(found).partition(" at ")[0].endswith(" mm"), str(found)
+            there = machine.at(**{name: float(value) for name, value in found.strokes.items()})
+            assert_allclose(there[quantity], found.value, atol=1e-6)  # it stands where the answer says
+
+
+def test_the_worst_over_another_stroke_is_looked_for_between_samples_in_all_cases():
+    machine, narrow = Cranks(), worst("narrow", over="psi")
+    for question in (most(narrow), least(narrow), at(narrow, phi=0.3)):
+        assert_allclose(machine.answers([question])[0].value, 1e4, rtol=1e-6)
+    assert_allclose(machine.answers([integral(narrow, by="phi")], over=Over())[0].value, 1e4 * np.pi / 2, rtol=1e-6)
+    assert machine.answers([most(worst(x("Q"), over="psi")) <= 1.6995], over=Over())[0].ok is False
+    moment = machine.answers([most(worst(drive_force("phi"), over="psi"))], over=Over())[0]
+    assert_allclose(moment.value, machine.answers([most(drive_force("phi"))], over=Over())[0].value)
+    assert moment.case == "twice"
+    batch = machine.replaced(OP=np.array([0.9, 1.0])).answers([least(worst(distance("Q", "C"), over="psi"))], over=Over())[0]
+    assert_allclose(batch.value, [2.8, 2.7], rtol=1e-9)
+    best = optimise(machine, maximise=at("PQ"), subject_to=[least(worst(x("Q"), over="psi")) <= 0.6], vary={"PQ": (0.3, 1.0)}, starts=1)
+    assert_allclose(best.value, 0.6, rtol=1e-9)
+
+
+def test_a_pose_is_asked_of_slow_motion_beside_a_path_in_time():
+    machine, force = Cranks(), drive_force("phi")
+    here = machine.at(phi=0.3, psi=0.7)[force]
+    for over in ({}, {"over": "turning"}, {"over": Over()}):
+        assert_allclose(machine.answers([at(force, phi=0.3, psi=0.7, case="plain")], **over)[0].value, here)
+    for question, remedy in (
+        (at(speed("Q"), phi=0.3, psi=0.7), "give rates= and accelerations= to evaluate, or sweep over a path in time"),
+        (integral(speed("Q")), r"goes in time; over time take motion = machine\.sweep\("),
+        (most(worst(force, over="psi")), r"known on the path in time alone; take most\(drive_force\(phi\)\) there"),
+        (most(worst(speed("Q"), over="psi")), r"known on the path in time alone; take most\(speed\(Q\)\) there"),
+    ):
+        with pytest.raises(DefinitionError, match=remedy):
+            machine.answers([question])
 
 
 def test_batches_give_arrays_over_their_designs():

@@ -28,7 +28,7 @@ from linkage.quantities.member import in_class
 from linkage.statics import AnyMotion, LawRequest, each_once, same, stroke_followed
 from linkage.units import show
 
-from .cylinders import PISTON, ROD, OnLines, Ram, by_other_lines, cylinder_request, line_thrust, lines_of
+from .cylinders import PISTON, ROD, OnLines, Ram, by_other_lines, cylinder_request, line_thrust, lines_of, refuse_gas
 from .inputs import Array, one_design
 from .lifting_line import LiftLine
 from .valve import HoldingValve
@@ -168,6 +168,8 @@ class Consumers:
         what = f"{plan.title}: no line is on {pump.name or pump}"
         ensure(self.lines, f"{what}; put it on one, OilLine(lift.piston_side, supply) or LiftCircuit(lift, supply).")
         ensure(not any(map(np.ndim, designs.values())), f"{plan.title}: one pump is shared in one design at a time; take one of the batch.")
+        for line in self.lines:
+            refuse_gas(line, plan)
         self.rams: tuple[Ram, ...] = each_once(ram for line in self.lines for ram in line.members(plan.members))
         self.strokes = tuple(plan.strokes)
         acting = replace(acting, direction=AS_IT_RUNS, inertia=False, rates=None, accelerations=None)
@@ -341,8 +343,13 @@ def pilot_request(inlet: Inlet, acting: Acting) -> LawRequest:
 
 
 def refuse_unpushed(branch: Branch, time: Array, pump: ForceElement) -> None:
-    """Raise DefinitionError where a cylinder is to move that neither oil nor its load pushes that way."""
+    """Raise DefinitionError where a cylinder is to move that neither oil nor its load pushes that way, or that no oil brakes."""
     inlet, pump_name = branch.inlet, pump.name or "supply"
+    loose = np.flatnonzero((branch.force < -AT_BORDER * np.abs(branch.force).max()) & (branch.speeds[0] > 0.0))
+    if len(loose) and inlet.sense > 0.0 and inlet.ram.only_pushes:
+        name, instant = inlet.ram.name, show(float(time[max(loose[0] - 1, 0)]), "s", 4)
+        what = f"{name} runs away extending at {instant}: its load pulls at it, and no oil brakes it, since its line only pushes"
+        raise DefinitionError(f"{what}; let the load press on it, or take a cylinder whose rod side has a line of its own.")
     at = np.flatnonzero((branch.force > AT_BORDER * np.abs(branch.force).max()) & (branch.speeds[0] > 0.0))
     if len(at) and not branch.is_fed:
         ram, other = inlet.ram.name, "rod" if inlet.sense < 0.0 else "piston"

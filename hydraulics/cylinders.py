@@ -390,7 +390,21 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         Verdict, optional
             The verdict.
         """
-        return None
+        if not self.only_pushes or (found := self.pressed_wrongly(judge)) is None:
+            return None
+        by = {"force": force_words(found), "where": found.place}
+        text = said(
+            "the load pulls at it with {force}, {where}: both of its sides are on one line and no oil holds it. "
+            "Let the load press on it there, or give its rod side a line of its own.",
+            **by,
+        )
+        if self.is_single_acting:
+            text = said(
+                "the load pulls at it with {force}, {where}: it is single acting and no oil holds it; "
+                "let the load press on it there, or take a cylinder.",
+                **by,
+            )
+        return Verdict("holding", False, text, answer=found)
 
     def pressed(self, which: Ram | str) -> Condition:
         """Return the condition that the load is on the side that works everywhere, with the drive at rest; of the class's, or of itself."""
@@ -412,8 +426,13 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
 
     @property
     def is_single_acting(self) -> bool:
-        """Whether oil pushes it alone, and nothing holds it against a pull."""
+        """Whether it has a piston side alone."""
         return len(self.own_sides) == 1
+
+    @property
+    def only_pushes(self) -> bool:
+        """Whether oil pushes it apart alone and nothing holds it against a pull: it is single acting, or one line has both its sides."""
+        return self.is_single_acting or self.side == "regenerative"
 
     def extent(self, motion: Motion) -> tuple[Array, Array]:
         """Return its least and its greatest length over all that a motion covers [m], one value a design; NaN where no pose is reached."""
@@ -495,19 +514,23 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds, or with `below` negative values.
 
         At rest without friction and efficiencies; while it moves, and where it stands in a motion in time, on a side that works, as its
-        circuit has it. A side on another line that keeps its own pressure has that.
+        circuit has it. A side on another line that keeps its own pressure has that; both sides on one line have one. A side on no line is
+        shut behind its pump's valve, and without pressure beside a closed line.
         """
         if side not in self.own_sides:
             raise DefinitionError(f"{self.name or self}: it has no {side} side, whose pressure could be asked for; it is single acting.")
-        motion = held_in_case(motion, acting)
-        line = circuit or circuit_having(self, motion.plan, False)
-        beside = line_beside(self, side, line, motion.plan.members)
+        motion, side = held_in_case(motion, acting), PISTON if self.side == "regenerative" else side
+        line, members = circuit or circuit_having(self, motion.plan, False), motion.plan.members
+        beside = line_beside(self, side, line, members)
         if beside is not None:
             return beside.pressure_in(self, motion, acting) + np.zeros(motion.shape)
+        own = next((one for one, chamber in lines_of(self, members) if chamber.side == side), None)
+        if own is None and line is not None and line.kind_open(members) != "held":
+            return np.zeros(motion.shape)
         thrust = line_thrust(self, line, motion, acting)
         along, size = thrust if side == PISTON else -thrust, self.sized(motion, acting.direction)
         balance = along / (size.outward_area if side == PISTON else size.pull_area)
-        if line is not None and side == other_side(self) and line.kind_in(motion.plan.members) == "held":
+        if line is not None and side == other_side(self) and line.kind_in(members) == "held":
             balance = line.pressure_behind(self, motion, acting)
         least = balance if below else 0.0
         goes, at_rest = self.goes(motion, acting), np.asarray(np.maximum(balance, least))[()]
@@ -515,7 +538,6 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             return at_rest
         found = pressure_of(self, motion, acting) if circuit is None else circuit.pressure_in(self, motion, acting)
         found = np.where(along > 0.0, found, least if goes is None else at_rest) + 0.0 * thrust
-        own = next((one for one, chamber in lines_of(self, motion.plan.members) if chamber.side == side), None)
         return found if own is None else over_valves(own, self, motion, acting, found)
 
     def columns(self, motion: Motion) -> list[Column]:
@@ -1531,6 +1553,21 @@ class Circuit(OnLines, HasVerdicts):
         """Whether a tank gives its pressure."""
         return False
 
+    def has_gas(self, members: NamedMembers) -> bool:
+        """Return whether accumulators lie beside its pump, which take oil as its pressure rises.
+
+        Parameters
+        ----------
+        members : mapping of str to Member
+            The members of the class by name.
+
+        Returns
+        -------
+        bool
+            Whether they do.
+        """
+        return False
+
     def when_shut(self) -> Self:
         return self if self._is_shut else self.renewed(_is_shut=True)
 
@@ -1540,7 +1577,20 @@ class Circuit(OnLines, HasVerdicts):
         return [(ram, Chamber(ram, side)) for ram, own in sides for side in own]
 
     def volume(self, motion: Poses, start: Callable[[Ram], Array] | None = None) -> Array:
-        """Return how much larger its chambers are than at some lengths of its cylinders [m], by default at 0, shape (...) [m3]."""
+        """Return how much larger its chambers are than at some lengths of its cylinders, accumulators beside a pump included.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+        start : callable, optional
+            The length of a cylinder at which it counts from [m]; 0 by default.
+
+        Returns
+        -------
+        array
+            The volume [m3], shape (...).
+        """
         chambers = ((ram, each.side, motion.distance(ram.A, ram.B)) for ram, each in self.filling(motion.plan.members))
         lengths = ((ram, side, np.zeros(()) if start is None else start(ram), end) for ram, side, end in chambers)
         return reduce(np.add, [ram.filled(side, motion, begin, end) for ram, side, begin, end in lengths])
@@ -1768,6 +1818,12 @@ def other_side(ram: Ram) -> Side | None:
 def line_thrust(ram: Ram, line: Circuit | None, motion: AnyMotion, acting: Acting, *, with_tanks: bool = True) -> Array:
     """Return the thrust left for a line on a cylinder [N]: its thrust less its other lines', tanks included on request."""
     return member_thrust(motion, ram, acting) - by_other_lines(ram, line, motion, acting, None if with_tanks else False)
+
+
+def refuse_gas(line: Circuit, plan: Declared) -> None:
+    """Raise DefinitionError for accumulators beside a pump where the flow of a line is asked for, which leaves theirs out."""
+    what = f"{plan.title}: the flow of {line.name} leaves out what the accumulators beside its pump take"
+    ensure(not line.has_gas(plan.members), f"{what}; leave them out, or ask for the oil, {line.name}.oil(motion).")
 
 
 def chamber_area(chamber: Chamber, ram: Ram, motion: Poses) -> Array:

@@ -395,7 +395,7 @@ class LiftingCylinder:
     def sides(self) -> Sequence[Side]:
         """The sides that hold a load in some load case, the one that works first: not one that another line keeps at its own pressure."""
         order = self.ram.own_sides if self.ram.side != "rod" else SIDES[::-1]
-        plan, order = self.judge.plan, order[:1] if self.goes_back_by_another else order
+        plan, order = self.judge.plan, order[:1] if self.goes_back_by_another or self.ram.only_pushes else order
         return [side for side in order if any(is_free(self.ram, side, self.circuit, plan, case) for case in self.judge.cases)]
 
     def left(self, cylinder: str | Ram, circuit: str | LiftLine) -> Condition | None:
@@ -412,7 +412,7 @@ class LiftingCylinder:
         back = [most(going_back_request(*asked, way)) for way in self.ways_back]
         sinks = AllOf(tuple(each <= supply if self.ram.side == "both" else each <= 0.0 for each in back))
         holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
-        pressed = self.ram.pressed(self.ram.name) if self.ram.is_single_acting else self.left(self.ram.name, name)
+        pressed = self.ram.pressed(self.ram.name) if self.ram.only_pushes else self.left(self.ram.name, name)
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
             "holding": holding if pressed is None else AllOf((holding, pressed)),
@@ -622,7 +622,7 @@ class LiftingCylinder:
         by["push"] = show_enough(float(push.value), self.unit)
         if push.unbounded:
             text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
-        elif self.ram.is_single_acting:
+        elif self.ram.only_pushes:
             text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.", **by)
         elif not is_pushed:
             text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}; no pump is on its other side.", **by)
@@ -669,6 +669,7 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     if np.isnan(ends).any():
         return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(one_design(ram.taken(judge.motion, *own)) for ram, own in zip(rams, ends, strict=True))
+    gas = circuit.has_gas(judge.plan.members)
     if circuit.fills_others(judge.motion):
         low, high = judge.answers(least_and_most(number_request(circuit, " volume", circuit.volume, measures="volume")))
         oil = float(high.value - low.value)
@@ -682,7 +683,7 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     if not rate > 0.0:
         return Verdict("oil", True, said("{says}; time follows from the pump's flow, which is not given.", says=says))
     time, given = show(oil / rate, "s", ".1f"), show(rate, "l/min", 4)
-    asked = over_time(judge, most(flow(circuit.name)) <= rate) if judge.plan.members.get(circuit.name) is circuit else None
+    asked = over_time(judge, most(flow(circuit.name)) <= rate) if judge.plan.members.get(circuit.name) is circuit and not gas else None
     if asked is None or asked.ok is not False:
         return Verdict("oil", True, said("{says}, {time} at {flow}.", says=says, time=time, flow=given))
     text = said(

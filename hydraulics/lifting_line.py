@@ -248,7 +248,7 @@ def pushed_back(ram: Ram, line: Circuit, members: NamedMembers) -> list[tuple[Ra
     beside = line_beside(ram, behind(ram), line, members)
     if beside is not None:
         return [(each, own) for each, own in beside.filling(members) if beside.is_drained and is_among(each, rams)]
-    free = (each for each in rams if not (each.is_single_acting or line_beside(each, behind(each), line, members)))
+    free = (each for each in rams if not (each.only_pushes or line_beside(each, behind(each), line, members)))
     return [(each, Chamber(each, behind(each))) for each in free]
 
 
@@ -727,9 +727,20 @@ class LiftLine(Circuit):
         return np.asarray(sum(found))[()]
 
     def fills_others(self, motion: Poses) -> bool:
-        """Return whether it is on several cylinders, on one chamber of each or more, so that one may fill the other."""
+        """Return whether its oil does not go to one cylinder alone: one may fill another one, or accumulators.
+
+        Parameters
+        ----------
+        motion : Motion
+            The poses.
+
+        Returns
+        -------
+        bool
+            Whether it is on several cylinders that do not work with both sides, or on accumulators beside its pump.
+        """
         rams = self.rams(motion)
-        return len(rams) > 1 and all(ram.side != "both" for ram in rams)
+        return self.has_gas(motion.plan.members) or (len(rams) > 1 and all(ram.side != "both" for ram in rams))
 
     def time(self, motion: Motion) -> Array:
         """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""

@@ -12,7 +12,7 @@ AccumulatorBlock             p of the gas      given, as a function of the oil t
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial, reduce
 from math import pi
@@ -376,7 +376,7 @@ class OilLine(PumpLine, GasLine):
         beside = {"pumps": ", with the flow of both, Pump(..., flow=...)"}
         yield from (f"{len(found)} {what} are on one line; leave one{beside.get(what, '')}" for found, what in each_of if len(found) > 1)
         kind = self.kind_in(members)
-        counting = NUMBERS["closed"] if kind == "closed" else NUMBERS["given"] if self.block is not None else ()
+        counting = () if kind == "given" and self.block is None else NUMBERS[kind]
         says = {"held": "a pump holds its pressure", "closed": "it is closed", "given": "its pressure is given"}[kind]
         for name in self.parameters:
             if name not in counting and self.given(name) is not None and not self._is_usual(name):
@@ -639,14 +639,21 @@ class OilLine(PumpLine, GasLine):
         """
         return number_set(self, motion, "make_up") if self.kind_in(motion.plan.members) == "closed" else 0.0
 
+    def has_gas(self, members: NamedMembers) -> bool:
+        return self.block is not None and self.kind_in(members) == "held"
+
+    def volume(self, motion: Poses, start: Callable[[Ram], Array] | None = None) -> Array:
+        found = super().volume(motion, start)
+        return found + self.accumulators(motion).fluid(self.line_pressure(motion)) if self.has_gas(motion.plan.members) else found
+
     def oil(self, motion: Motion) -> Array:
         found = super().oil(motion)
-        if self.block is None or self.kind_in(motion.plan.members) != "held":
+        if not self.has_gas(motion.plan.members):
             return found
         at = {**motion.plan.sketch_strokes, **self.strokes_filled(list(motion.plan.strokes))}
         filled = Motion(motion.plan, motion.designs, {name: np.asarray(at[name]) for name in motion.plan.strokes}, "nan")
-        now, then = (self.accumulators(each).fluid(self.line_pressure(each)) for each in (motion, filled))
-        return found + now - then.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))
+        then = self.accumulators(filled).fluid(self.line_pressure(filled))
+        return found - then.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape)))
 
     def length_charged(self, motion: Poses, ram: Ram) -> Array:
         length = self.length_filled(ram, motion.plan.members)
@@ -765,7 +772,7 @@ class OilLine(PumpLine, GasLine):
             return [*GasLine.verdicts(self, judge), *self._relieved(judge)]
         shut = shut_verdicts(self, judge)
         if self.kind_of_line != "closed":
-            return shut
+            return [*self._relieved(judge), *shut]
         try:
             low, high = judge.answers(least_and_most(self.pressure_request(judge.plan)))
         except DefinitionError as error:
@@ -804,6 +811,8 @@ class OilLine(PumpLine, GasLine):
         """Return the verdict that its relief valve opens, where it does."""
         if not self.relieves(judge.plan):
             return []
+        if self.is_drained and one_design(self.number(judge.motion, "back_pressure")) <= one_design(self.number(judge.motion, "relief")):
+            return []  # what it holds where it is shut is told there
         limit, high = one_design(self.number(judge.motion, "relief")), judge.answer(most(self.pressure_request(judge.plan)))
         if not high.value > limit:
             return []

@@ -45,6 +45,7 @@ from .cylinders import (
     line_thrust,
     lines_by_side,
     rate_request,
+    refuse_gas,
     thrust_request,
 )
 from .inputs import Array, only_where, proper_share
@@ -593,6 +594,7 @@ def flow(line: Reference) -> LawRequest:
         if not isinstance(known, Circuit):
             lines = ", ".join(plan.of_kind(Circuit)) or "none is declared"
             raise DefinitionError(f"{plan.title}: flow({name}): the name of a line is expected: {lines}.")
+        refuse_gas(known, plan)
         return known
 
     def over(motion: AnyMotion) -> Array:

@@ -37,7 +37,7 @@ from linkage.units import mm, require_measure, show, shown_number
 from linkage.verdict import Verdict
 
 from .buckling import Buckling
-from .cylinders import LENGTHS, PISTON, TOLERANCE, Ram, Side, circuits_among, force_words
+from .cylinders import LENGTHS, PISTON, TOLERANCE, Ram, Side, circuits_among
 from .inputs import Array, follows, in_metres, number_set, one_design, one_number, positive, stroke_in_metres
 from .remedy import show_enough
 from .standard_sizes import MOST, RamSize, Works, chosen_series
@@ -371,17 +371,6 @@ class Telescope(Ram):
         pulled = self.pulled(judge)
         text = said("the load presses on it everywhere, the least {where}.", where=found.place)
         return [Verdict("holding", True, text, answer=found) if pulled is None else pulled]
-
-    def pulled(self, judge: Judge) -> Verdict | None:
-        found = self.pressed_wrongly(judge)
-        if found is None:
-            return None
-        text = said(
-            "the load pulls at it with {force}, {where}: it is single acting and no oil holds it; "
-            "let the load press on it there, or take a cylinder.",
-            force=force_words(found), where=found.place,
-        )  # fmt: skip
-        return Verdict("holding", False, text, answer=found)
 
     def slender_part(self, motion: Poses, direction: str | None = None) -> tuple[str, int, Sequence[float]]:
         stage = int(self.stage(motion, direction))

@@ -36,7 +36,7 @@ from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
 from .motion import Answer, Featured, Positions, RequestLike, Target, at_values, follow_path, from_above, positions_for, sweep_values
 from .motion.functions import PoseFunction, evaluate, source_of
-from .motion.judge import Judge, Question
+from .motion.judge import Judge, Question, case_named
 from .motion.motion import Motion, require_motion
 from .motion.motion_verdicts import HELD, judge_verdicts, refused_forces
 from .motion.over import OPTIONS, Over
@@ -671,7 +671,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         declared = {each.name: each for each in self.overs if each.name}
         overs: list[Over | Motion] = []
         case = getattr(acting, "case", None)
-        name = getattr(case, "name", case)
+        name = case_named(self.plan, case) if isinstance(case, str) else getattr(case, "name", case)
         occurring = [each for each in self.overs if name is None or each.cases is None or name in each.cases]
         given: Sequence[object] = (occurring or self.overs) if over is None else over if is_listed(over) else (over,)
         for each in given or (over,):

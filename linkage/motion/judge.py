@@ -199,7 +199,7 @@ class Domain:
 
     def __init__(self, plan: Plan, designs: Mapping[str, Numbers], over: Over | Motion) -> None:
         given = over if isinstance(over, Motion) else None
-        self.over = over if isinstance(over, Over) else over.over
+        self.over = (over if isinstance(over, Over) else over.over).among(plan.members)
         self.plan, self.designs = plan, designs
         self.program: tuple[Request, ...] = ()
         """What the largest search asked in one program, by which others ask some of it."""
@@ -662,7 +662,7 @@ class Judge:
             known_name("Stroke", self.acting.drive, plan.strokes, where=f"{plan.title}: acting.drive")
         for over in overs:
             if isinstance(over, Over):
-                over.check(plan.title, plan.strokes, cases)
+                over.among(plan.members).check(plan.title, plan.strokes, cases)
         self.places = tuple(Domain(plan, designs, over) for over in overs)
         self._found: list[dict[Any, tuple[Leaf, list[Candidate]]]] = [{} for _ in self.places]
         self._seen: list[Coverage] = [Coverage() for _ in self.places]

@@ -17,6 +17,7 @@ from ..plan import Mask, Plan, require_kind
 from ..program import FloatArray
 from ..quantities import Curve, Member, PoseCondition, Quantity, Stroke, is_number, keywords, name_of, needs, numbers_in, quantity, real
 from ..quantities.course import Course, check_rising, course_of
+from ..quantities.member import of_kind
 from ..units import Amount, amount_or_float, amounts_in, require_measure, show
 from .grid import MotionLike
 from .instants import Instants
@@ -176,6 +177,15 @@ class Over(Member):
 
     def parts(self) -> tuple[Any, ...]:
         return ()
+
+    def among(self, members: Mapping[str, Member]) -> Over:
+        """Return it with load cases that are called by their titles under their names in the class."""
+        if self._cases is None:
+            return self
+        declared = of_kind(members, LoadCase)
+        named = {each.title: name for name, each in declared.items()} | {name: name for name in (PLAIN_CASE, *declared)}
+        cases = [named.get(each, each) if isinstance(each, str) else each for each in self._cases]
+        return self if cases == [*self._cases] else self.renewed(_cases=(*cases,))
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for unknown strokes and load cases, and for conditions on unknown members.

@@ -273,6 +273,7 @@ def where_searched(machine: Mechanism, over: Any, travels: Mapping[str, Range]) 
     if not isinstance(over, Over):
         ranges_of(machine, over)  # which refuses what is none
         return {**travels, **(over or {})} or over, occurring
+    over = over.among(plan.members)
     over.check(title, plan.strokes, plan.of_kind(LoadCase))
     remedy = "give a box, over={...}, and ask the design that is found machine.answers([...], over=...)"
     ensure(over.shape == "box" and not over.only, f"{title}: over={over.name or over}: a search runs over a box of strokes; {remedy}.")

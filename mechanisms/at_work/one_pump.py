@@ -88,7 +88,7 @@ class RegenerativePress(Mechanism):
     valve = Relief(200 * bar)
     line = OilLine(ram.piston_side, ram.rod_side, supply, valve)
     steel = Weight(B, mass=150.0)
-    work = Spring(B, W, stiffness=300e3, free_length=0.700)
+    work = Spring(B, W, stiffness=300e3, free_length=0.710)  # pressed from the start, so that it carries the tool
 
     closing = Over.path(S=ramp(0.0, 0.200, speed=0.10, acceleration=0.5))
 

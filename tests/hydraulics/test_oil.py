@@ -6,8 +6,39 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, OilLine, Pump, Tank, capacity, reserve, thrust
-from linkage import LEFT, RIGHT, DefinitionError, Dyad, Force, Ground, Guide, Link, Mechanism, OnGuide, OnLink, Stroke, Weight, pin_forces
+from hydraulics import (
+    Accumulator,
+    AccumulatorBlock,
+    Cylinder,
+    FloatCircuit,
+    LiftCircuit,
+    OilLine,
+    Pump,
+    Tank,
+    capacity,
+    pressure,
+    reserve,
+    thrust,
+)
+from linkage import (
+    LEFT,
+    RIGHT,
+    Acting,
+    DefinitionError,
+    Dyad,
+    Force,
+    Ground,
+    Guide,
+    Link,
+    LoadCase,
+    Mechanism,
+    OnGuide,
+    OnLink,
+    Stroke,
+    Weight,
+    most,
+    pin_forces,
+)
 from linkage.statics import work
 from linkage.units import bar, deg, kN, litre, minute, mm
 from tests.for_all import for_all
@@ -113,6 +144,11 @@ def test_a_closed_line_keeps_its_oil_and_its_pressure_is_the_work_on_it():
     energy = [2000 * 9.80665 * Levelled(**{"level.oil": k * step}).sweep(9)["F"][1] for k in (-2, -1, 1, 2)]
     slope = (energy[0] - 8 * energy[1] + 8 * energy[2] - energy[3]) / (12 * step)
     assert level.pressure(motion) == pytest.approx(slope, rel=1e-8)
+    hung = Acting(loads=[Force("F", (0.0, 20 * kN))])  # where it would have to suck, no side that no line has holds it
+    pressed = level.pressure(motion, acting=hung)
+    assert pressed.min() < -10 * bar
+    for each, (side, held) in product(("master", "slave"), {"piston": np.maximum(pressed, 0.0), "rod": 0.0 * pressed}.items()):
+        assert_allclose(motion[pressure(each, side=side, acting=hung)], held, rtol=1e-9)
 
 
 class Unloaded(Levelled):
@@ -265,7 +301,9 @@ def test_a_regenerative_line_has_bounds_and_holds():
     motion, area = Regenerative().sweep(2), np.pi / 4 * 0.085**2
     assert Regenerative.ram.bounds(motion, True)[1] == pytest.approx(200 * bar * area)
     assert Regenerative.line.reserve(motion) == pytest.approx(200 * bar * area / (40 * kN))
-    assert np.all(Regenerative.line.holding(motion).other == 0.0)
+    holding = Regenerative.line.holding(motion)
+    assert_allclose([holding.working, motion[pressure("ram", side="rod")]], 40 * kN / area, rtol=1e-12)
+    assert np.all(holding.other == 0.0)
     (oil,) = [each for each in told_by(Regenerative(), "line") if each.rule == "oil"]
     assert f"{0.5 * area / litre:.2f} l from end to end, {0.5 * area / (100 * litre / minute):.1f} s" in oil.sentence
 
@@ -353,3 +391,35 @@ def test_a_circuit_and_a_line_never_share_a_chamber_nor_drive_a_cylinder_by_two_
                     type(*structure)
             elif what == "tank":
                 assert type(*structure)().plan.members["ram"].side == own
+
+
+@for_all("seed", range(3), slow=range(3, 30))
+def test_joined_sides_have_the_pressure_of_their_line_and_hold_no_pull(seed):
+    draw = np.random.default_rng(seed)
+    bore, rod, force, kind = draw.uniform(0.06, 0.12), draw.uniform(0.03, 0.05), draw.uniform(10, 60) * kN, seed % 3
+    own = {"ram": Cylinder("O", "P", bore=bore, rod=rod), "load": Force("P", (0.0, -force)), "pull": LoadCase(scale={"load": -1.0})}
+    if kind == 1:
+        own |= {"Q": Ground(0.0, 4.0), "top": Cylinder("Q", "P", bore=80 * mm, rod=50 * mm)}
+    on = [("supply",), ("top.rod_side", "supply"), (vessel(),)][kind]
+    charged = {"charge_pressure": draw.uniform(60, 90) * bar, "at": 0.0} if kind == 2 else {}
+    machine = type("Ram", (Press,), {**own, "line": OilLine("ram.piston_side", "ram.rod_side", *on, **charged)})()
+    line, ram = machine.plan.members["line"], machine.plan.members["ram"]
+    motion, area = machine.sweep(3), np.pi / 4 * rod**2
+    joined = area + (np.pi / 4 * (0.08**2 - 0.05**2) if kind == 1 else 0.0)
+    whole = line.pressure(motion) if kind == 2 else np.full(3, force / joined)
+    assert_allclose(ram.thrust(motion), whole * area, rtol=1e-9)
+    for side in ("piston", "rod"):
+        assert_allclose(motion[pressure("ram", side=side)], whole, rtol=1e-9)
+        assert_allclose(machine.answers([most(pressure("ram", side=side))])[0].value, np.max(whole), rtol=1e-9)
+    if kind == 2:
+        return
+    rules = [f"{rule}{' ram' * (kind == 1)}" for rule in ("holding", "lowering")]
+    asked = [line.conditions(machine.judge())[rule] for rule in rules]
+    none = most(pressure("ram", side="rod", case="pull")) <= 0.0
+    assert [each.ok for each in machine.answers([none, *asked])] == [True, False, False]
+    told = {each.rule: each for each in machine.verdicts()}
+    pulls = f"pulls at it with up to {force * area / joined / kN:.4g} kN, in the case pull, at S = 0.0 mm: both of its sides"
+    assert pulls in told[rules[0]].sentence and [told[rule].ok for rule in rules] == [False, False]
+    if kind == 0:
+        with pytest.raises(DefinitionError, match="no oil brakes it"):
+            Press.supply.run(machine, demands={"ram": 0.1}, start={"S": 0.1}, until=1.0, acting=Acting(case="pull"))

@@ -46,6 +46,7 @@ from linkage import (
     PinFriction,
     Rope,
     SingularError,
+    Spring,
     Stroke,
     Weight,
     angle,
@@ -226,7 +227,7 @@ def test_both_sides_know_the_valve_over_which_they_go_down_at_every_door(seed):
 
 def test_a_number_that_counts_for_nothing_on_a_line_is_refused_there():
     block = AccumulatorBlock([Accumulator(volume=4 * litre, charge=40 * bar)])
-    for on in ((Pump(200 * bar),), (Tank(2 * bar),)):
+    for on in ((Pump(200 * bar),), (Tank(2 * bar),), (Pump(200 * bar), block)):
         for name, value in dict(make_up=3 * bar, oil=1e-3, charge_pressure=90 * bar, seal_friction=1 * bar, exponent=1.2).items():
             with pytest.raises(DefinitionError, match=f"{name}= counts for nothing there"):
                 made(line=OilLine("ram.piston_side", *on, **{name: value}))
@@ -234,6 +235,27 @@ def test_a_number_that_counts_for_nothing_on_a_line_is_refused_there():
         made(line=OilLine("ram.piston_side", block, charge_pressure=90 * bar, make_up=3 * bar))
     with pytest.raises(DefinitionError, match="exponent= counts for nothing there, as it is closed"):
         made(line=OilLine("ram.piston_side", exponent=1.2))
+    back = OilLine("ram.rod_side", Tank(150 * bar), Relief(50 * bar))
+    weak = made(base=Upright, line=OilLine("ram.piston_side", Pump(400 * bar)), back=back)
+    (found,) = [each for each in weak().verdicts() if each.rule == "line back"]
+    assert not found.ok and "comes to 150 bar at S = 0.0 mm, and its relief valve opens at 50 bar" in found.sentence
+
+
+def test_accumulators_beside_a_pump_count_in_the_oil_of_its_line():
+    block = AccumulatorBlock([Accumulator(volume=5 * litre, charge=20 * bar)])
+    spring = Spring("O", "P", stiffness=50e3, free_length=1.0)
+    made_so = made(base=Upright, line=OilLine("ram.piston_side", Pump(400 * bar, flow=1e-3), block), spring=spring)
+    machine = made_so()
+    motion, area, line, air = machine.sweep(3), np.pi / 4 * 0.12**2, machine.plan.members["line"], 101325.0
+    pressures = (40 * kN + 50e3 * motion["S"]) / area
+    fluid = 5e-3 * (1.0 - (20 * bar + air) / (pressures + air))
+    oil = area * motion["S"] + fluid - fluid[0]
+    assert_allclose(line.oil(motion), oil, rtol=1e-9, atol=1e-12)
+    assert_allclose([line.taken(motion), line.time(motion) * 1e-3], oil[-1], rtol=1e-9)
+    (found,) = [each for each in machine.verdicts() if each.rule == "oil"]
+    assert f"{oil[-1] / litre:.2f} l from end to end, {oil[-1] / 1e-3:.1f} s" in found.sentence
+    with pytest.raises(DefinitionError, match="leaves out what the accumulators"):
+        machine.evaluate([flow("line")], S=0.1)
 
 
 class Chain(Mechanism):

@@ -54,8 +54,8 @@ class OfPaths(Lift):
 class OfABox(Lift):
     """A box in which both strokes run."""
 
-    heavy = LoadCase("heavy", scale={"load": 1.6})
-    field = Over(S=(0.05, 0.20), T=(0.04, 0.15), cases=[heavy])
+    heavy = LoadCase("heavy load", scale={"load": 1.6})
+    field = Over(S=(0.05, 0.20), T=(0.04, 0.15), cases=["heavy load"])
     about = Featured("reserve arm")
 
 
@@ -109,6 +109,13 @@ def check_within(name, values, ends, digits=0.0):
     near = 1e-6 * np.max(np.abs(finite), initial=0.0) + max(digits, ROUNDING)
     assert not finite.size or np.isnan(low) or finite.min() >= low - near, (name, finite.min(), low)
     assert not finite.size or np.isnan(high) or finite.max() <= high + near, (name, finite.max(), high)
+
+
+def test_a_load_case_goes_by_its_title_wherever_it_is_named():
+    machine = OfABox()
+    found = [machine.answers([most(thrust("boom"))], over=Over(T=0.1, cases=[each]))[0].value for each in ("heavy", "heavy load")]
+    asked = [machine.answers([most(thrust("boom"))], acting=Acting(case=each))[0] for each in ("heavy", "heavy load")]
+    assert found[0] == found[1] and asked[0].value == asked[1].value and machine.overs[0].cases == ("heavy",)
 
 
 @for_all("machine", [OfCases], slow=lambda: [OfPaths, OfPoses, OfABox, OfATurningBox, LoadedFrontLoader, *declaring().values()])

@@ -375,6 +375,8 @@ def dead_point_verdicts(place: Domain, limits: StrokeLimits, span: tuple[float, 
 
 def is_asked(place: Domain, limits: StrokeLimits, value: float, near: float) -> bool:
     """Return whether a machine runs at a value of a stroke, the others held: at poses to what is `near`, else where conditions hold."""
+    if place.over.shape != "poses" and not place.over.only:
+        return True
     there = StrokeLine(place.motion, limits.stroke, {name: at for name, at, _ in limits.held}).motion_at(np.array([value]))
     if place.over.shape == "poses":
         return bool(np.all([abs(given - there.strokes[name]) <= near for name, given in place.motion.strokes.items()], axis=0).any())

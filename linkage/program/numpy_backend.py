@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, cached_property, partial
 from pathlib import Path
 from threading import local
-from typing import Any, TypeAlias, TypeGuard, cast
+from typing import TypeAlias, TypeGuard, cast
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ..vectors import FloatArray, Numbers
 from .cache import compiled
 from .node import Level, Node
 from .operations import ARRAYS, FLOATS
-from .schedule import Schedule, rewritten
+from .schedule import Schedule, rewritten, values_by_node
 from .text import GUARDED, function_text
 
 #: Operations that have no place for a result: they make a new array.
@@ -88,9 +88,9 @@ class NumpyBlocks:
         self._runs += 1
         single = as_floats(design) if m == 1 and n <= SHORT and self._runs <= FIRST else None
         if single is not None:
-            known = by_nodes(self.plan.design, dict(zip(self.plan.design_inputs, single, strict=True)), {**ARRAYS, **FLOATS})
+            known = values_by_node(self.plan.design, dict(zip(self.plan.design_inputs, single, strict=True)), {**ARRAYS, **FLOATS})
             known |= zip(self.plan.pose_inputs, map(in_block, poses), strict=True)
-            by_nodes(self.plan.pose, known, {**ARRAYS, "reciprocal": partial(np.divide, 1.0)})
+            known = values_by_node(self.plan.pose, known, {**ARRAYS, "reciprocal": partial(np.divide, 1.0)})
             for row, node in zip(values[:, 0], self.plan.outputs, strict=True):
                 row[...] = known.get(node, node.value)
             guards[:] = [np.min(known.get(node, node.value)) for node in self.plan.guards]
@@ -134,13 +134,6 @@ class NumpyBlocks:
         self._pose(*seen, pool, list(block), least)
         if len(guards):
             np.minimum(guards, least, out=guards)
-
-
-def by_nodes(nodes: Iterable[Node], known: dict[Node, Any], rules: Mapping[str, Callable[..., object]]) -> dict[Node, Any]:
-    """Return the values of nodes beside those that are known, by the same operations as their text."""
-    for node in nodes:
-        known[node] = rules[node.op](*[known.get(arg.origin, arg.origin.value) for arg in node.args])
-    return known
 
 
 Windowed: TypeAlias = tuple[Sequence[FloatArray], slice, slice]

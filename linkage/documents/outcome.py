@@ -520,16 +520,19 @@ def inertia_blocks(subject: ReportSubject, run: Run, along: Motion, beside: str)
     rows = list[tuple[str, ...]]()
     with unwarned():
         answers = judge.answers([side(request) for request, _ in forces.values() for side in (most, least)])
-        for k, (name, (_, unit)) in enumerate(forces.items()):
+        for k, (name, (request, unit)) in enumerate(forces.items()):
             worst = max(answers[2 * k : 2 * k + 2], key=lambda each: abs(np.nan_to_num(float(each.value))))
             if not np.isfinite(float(worst.value)):
                 continue
-            without = float(np.ravel(judge.there(worst)[slow[name]])[0])
+            there = request.under(Acting(case=judge.situation(worst).case, inertia=False), keep=True)
+            without = float(np.ravel(judge.there(worst)[there])[0])
             factor = f"{float(worst.value) / without:.3g}" if without else ""
             values = (show(float(worst.value), unit, FIGURES), worst.place, show(without, unit, FIGURES), factor)
             rows.append((heading_of(name), *values))
         heads = said("force"), said("greatest"), said("where"), said("without inertia there"), said("dynamic factor")
-        yield TableBlock(said("Greatest forces with inertia") + beside, heads, tuple(rows), "lrmrr")
+        title = said("Greatest forces with inertia")  # of all load cases that occur, unless one is asked for
+        titled = title + beside if run.case is not None else f"{title}, {said('over {over}', over=run.title)}" if run.title else title
+        yield TableBlock(titled, heads, tuple(rows), "lrmrr")
         for name, (request, unit) in forces.items():
             column = Column(name, along[request], unit)
             other = Column(name, along[slow[name]], unit)

@@ -26,7 +26,7 @@ from ..vectors import Numbers
 from .arithmetic import ValuesOf
 from .forces import WORDS, ForceLines, LineDerivatives, lines_needed, symbols_behind
 from .listing import LENGTH, X_AXIS, GivenNumber, Listing, ListingLine, Unit
-from .names import Cross, Direction, Dot, Tcos, TurnV, TurnVL, escaped_latex, explicit, plain_symbols
+from .names import Cross, Deg, Direction, Dot, Tcos, TurnV, TurnVL, escaped_latex, explicit, plain_symbols
 from .printing import Latex, Text, number_latex, plain_number
 
 
@@ -582,7 +582,7 @@ def line_values(lines: Sequence[ListingLine], values: ValuesOf) -> dict[sympy.Ba
     found: dict[sympy.Basic, Any] = {}
     for line in lines:
         try:
-            value = values[line.rhs]
+            value = values[line.rhs.xreplace({each: each.doit() for each in line.rhs.atoms(Deg)})]
         except ZeroDivisionError:  # mpmath's; NumPy has no value there either and says so by NaN or infinity
             value = (mpmath.nan, mpmath.nan) if line.lhs.is_Matrix else mpmath.nan
         found[line.lhs] = values[line.lhs] = tuple(map(in_reals, value)) if line.lhs.is_Matrix else in_reals(value)

@@ -696,11 +696,11 @@ def verdicts_shown(requests: PageRequests) -> PageData:
 def fact_data(requests: PageRequests, verdict: Verdict) -> list[Any]:
     """Return the member that says a verdict, its key, whether it is of poses, and how far its limit is used, where it tells.
 
-    That is 1e6 where nothing bounds it, or where it is on the wrong side of its limit.
+    That is 1e6 where nothing bounds it, or where it is on the wrong side of its limit; of a limit of nothing there is no share.
     """
     found: list[Any] = [verdict.member, rule_key(verdict.rule, verdict.member)]
     if not isinstance(verdict.answer, Answer):
         return [*found, 0]
     words, _, share = share_used(requests.judge, verdict, verdict.answer)
-    tells = (np.isfinite(share) or verdict.ok is False) and (share > 0.0 or words.share is not None)
+    tells = (np.isfinite(share) or (verdict.ok is False and verdict.answer.limit != 0.0)) and (share > 0.0 or words.share is not None)
     return [*found, int(bool(verdict.answer.strokes)), *([min(max(float(f"{share:.7g}"), 0.0), 1e6)] if tells else [])]

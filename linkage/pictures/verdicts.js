@@ -55,7 +55,7 @@ function answerText(question, each) {
   return data.limits[rule] ? `${plain} (${limitText(data.limits[rule])})` : plain;
 }
 /* How much of its limit is used, 1 where it is met exactly, 1e6 where it is on the wrong side of it; not a number where there is no such share. */
-const shareOf = ({ isLength }, each) => (each.share !== undefined ? max(each.share, 0) : (isLength && each.kept) || !(abs(each.value) >= 0) ? NaN : min(each.used, 1e6) || NaN);
+const shareOf = ({ isLength }, each) => (each.share !== undefined ? max(each.share, 0) : (isLength && each.kept) || each.limit === 0 || !(abs(each.value) >= 0) ? NaN : min(each.used, 1e6) || NaN);
 /* The delivered verdicts in the language and the units chosen. */
 function delivered() {
   const inUnits = data.verdictsIn[system];
@@ -288,9 +288,9 @@ function withPlaces(text) {
     const said = place.replace(/\.$/, ""), at = strokesIn(said);
     if (!at) continue;
     const button = make("a", { href: "#mechanism", role: "button", className: "place", textContent: said, title: say("Take the machine there") });
-    const path = strokes.findIndex((each) => each.path && text.slice(from, index).includes(say("over {over}", { over: each.name })));
-    const acts = data.cases.findIndex((name) => text.slice(from, index).includes(caseWords(name)));
-    on(button, "click", (event) => { event.preventDefault(); goTo(at, path, acts); });
+    const before = text.slice(from, index), acts = data.cases.findIndex((name) => before.includes(caseWords(name))), [, instant = ""] = before.match(/([\d\u202f]+(?:[.,]\d+)?)[ \u2009\u00a0][s\u0441] \($/) || [];
+    const named = strokes.findIndex((each) => each.path && before.includes(say("over {over}", { over: each.name }))), path = instant && named < 0 ? strokes.findIndex((each) => each.courses) : named;
+    on(button, "click", (event) => { event.preventDefault(); goTo(at, path, acts, instant); });
     found.push(text.slice(from, index), button);
     from = index + said.length;
   }
@@ -305,14 +305,14 @@ function strokesIn(text) {
   });
   return found.every(Boolean) ? found : null;
 }
-/* Go to a place: along the path over which it was found, in its load case, else with the strokes alone. */
-function goTo(places, path, acts) {
+/* Go to a place: along the path over which it was found, at its instant in time, in its load case, else with the strokes alone. */
+function goTo(places, path, acts, instant) {
   play(false);
   if (path >= 0) runsOn(path);
   else if (strokes[runs].path || places.every(([k]) => k !== runs)) runsOn(places[0][0]);
   acting = acts >= 0 && data.cases[acts] !== data.cases[caseNow()] ? acts : -1;
   const at = [...stands];
-  if (path >= 0) at[path] = placeOn(path, places); else for (const [k, value] of places) at[k] = value;
+  if (path >= 0) at[path] = instant ? within(typed(instant, strokes[path], 1), strokes[path]) : placeOn(path, places); else for (const [k, value] of places) at[k] = value;
   moved(present, at, say("The place"));
   clock = phaseNow();
   choosers(); soon("sweep"); remember();

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache, cached_property, partial
+from functools import cache, cached_property
 from pathlib import Path
 from threading import local
 from typing import TypeAlias, TypeGuard, cast
@@ -15,7 +15,7 @@ from ..vectors import FloatArray, Numbers
 from .cache import compiled
 from .node import Level, Node
 from .operations import ARRAYS, FLOATS
-from .schedule import Schedule, rewritten, values_by_node
+from .schedule import Schedule, rewritten
 from .text import GUARDED, function_text
 
 #: Operations that have no place for a result: they make a new array.
@@ -24,8 +24,6 @@ MAKERS = ("pick", "component", "solve")
 NAMED = ("minimum", "maximum")
 SMALLEST, LARGEST = 8192, 16384
 """The poses of a block."""
-FIRST, SHORT = 2, 512
-"""So many runs of up to so many poses go node by node: most programs run no more often, and compiling their text takes longer."""
 
 
 class NumpyBlocks:
@@ -34,7 +32,6 @@ class NumpyBlocks:
     def __init__(self, plan: Schedule) -> None:
         self.plan = plan
         self._last: tuple[tuple[float, ...], list[FloatArray]] = (), []
-        self._runs = 0
 
     @cached_property
     def _code(self) -> tuple[str, int, Mapping[str, FloatArray]]:
@@ -85,16 +82,6 @@ class NumpyBlocks:
     def run(self, design: Sequence[Numbers], poses: Sequence[Numbers], values: FloatArray, guards: FloatArray) -> None:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         m, n = values.shape[1:]
-        self._runs += 1
-        single = as_floats(design) if m == 1 and n <= SHORT and self._runs <= FIRST else None
-        if single is not None:
-            known = values_by_node(self.plan.design, dict(zip(self.plan.design_inputs, single, strict=True)), {**ARRAYS, **FLOATS})
-            known |= zip(self.plan.pose_inputs, map(in_block, poses), strict=True)
-            known = values_by_node(self.plan.pose, known, {**ARRAYS, "reciprocal": partial(np.divide, 1.0)})
-            for row, node in zip(values[:, 0], self.plan.outputs, strict=True):
-                row[...] = known.get(node, node.value)
-            guards[:] = [np.min(known.get(node, node.value)) for node in self.plan.guards]
-            return
         if min(m, n) == 1 and m * n <= self.block:  # one row
             constants = self._constants(design) if m == 1 else list(map(in_block, self.passed(design)))
             row = values[:, 0] if m == 1 else values[:, :, 0]

@@ -34,7 +34,9 @@ from linkage import (
     Over,
     Stroke,
     Weight,
+    at,
     max_table,
+    most,
     pin_forces,
     ramp,
     report,
@@ -673,3 +675,21 @@ def test_a_desk_model_has_figures_and_no_curve_without_a_value():
     assert "thrust, kN along S" in text and "Without a value at all these poses: reserve." in text and "reserve, % along" not in text
     forces = {row.cells[0]: row.cells[4] for row in max_table(machine)}
     assert forces["A"] == f"{-most:.3g}" and float(forces["O"]) > 0.0
+
+
+class TwoCases(Pumped):
+    """Over its path in time its own loads and a heavier load case occur."""
+
+    rise = Over.path(S=ramp(0.32, 0.48, speed=0.2, acceleration=1.0), cases=["plain", "full"])
+
+
+def test_what_inertia_adds_is_told_of_one_load_case(tmp_path):
+    machine = TwoCases()
+    text = report(machine, tmp_path / "two.md").read_text()
+    row = re.search(r"\| (?:drive force|thrust)[^|]*\| ([\d.]+) kN \| ([^|]*) \| ([\d.]+) kN \| ([\d.]+) \|", text)
+    (worst,) = machine.answers([most(abs(thrust("lift")))])
+    (slow,) = machine.answers([at(abs(thrust("lift", acting=Acting(case=worst.case, inertia=False))), **worst.strokes)])
+    assert worst.case == "full" and "full" in row[2]
+    assert float(row[1]) == pytest.approx(worst.value / 1000.0, rel=1e-3) and float(row[3]) == pytest.approx(slow.value / 1000.0, rel=1e-3)
+    assert float(row[4]) == pytest.approx(worst.value / slow.value, rel=6e-3)
+    assert "Greatest forces with inertia, over rise*" in text

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from hydraulics import Cylinder, LiftCircuit, standard_bores
-from linkage import LEFT, RIGHT, Dyad, Featured, Ground, Link, Mechanism, OnLink, Over, Stroke, deg, page
+from linkage import LEFT, RIGHT, Dyad, Featured, Ground, Link, Mechanism, OnLink, Over, Stroke, deg, page, ramp
 from linkage.cli import main
 from linkage.loads import LinkMass, LoadCase, Support, Weight
 from linkage.units import bar, mm
@@ -14,6 +14,7 @@ from mechanisms.at_work.excavator import Excavator
 from mechanisms.at_work.levelled import LevelledTelehandler
 from mechanisms.header_balancer import HeaderBalancer
 from tests.for_all import first_daily
+from tests.linkage.pictures.test_in_seconds import LoadedLever
 from tests.linkage.pictures.test_page import PHONE, Shown
 
 DESKTOP = (1440, 900)
@@ -225,3 +226,28 @@ def test_a_slider_goes_from_low_to_high_and_places_are_as_fine_as_the_stroke(chr
         rested(shown)
         assert shown("hydrolinkage.state().at.S") == pytest.approx(0.0004)
         assert shown.tab.locator("#strokes input[type='text']").input_value() == "0.400\u2009mm"
+
+
+class InSeconds(LoadedLever):
+    """A lever on a pump that is too weak, lowered in time."""
+
+    rub = None
+    rise = Over.path(S=ramp(0.48, 0.32, speed=0.1, acceleration=0.5), cases=["full"])
+    pump = LiftCircuit("lift", pressure=30 * bar)
+
+
+def test_a_place_of_a_path_in_time_is_gone_to_at_its_instant(chromium, tmp_path):
+    machine, gone = InSeconds(), 0
+    (name,) = machine.plan.of_kind(Over)
+    with Shown(chromium, page(machine, tmp_path / "in_seconds.html"), DESKTOP) as shown:
+        for button in shown.tab.locator("#groups .place").all():
+            before = button.evaluate("(one) => one.previousSibling.textContent")
+            told = re.search(r"([\d.]+)\s*s \($", before)
+            if told is None:
+                continue
+            button.evaluate("(one) => one.click()")
+            rested(shown)
+            assert shown(f"hydrolinkage.state().at['{name}']") == pytest.approx(float(told[1]), abs=1e-9), before
+            assert "outside what is judged" not in shown.tab.locator("#here").text_content()
+            gone += float(told[1]) > 0.5
+    assert gone

@@ -21,7 +21,7 @@ from linkage.program import kernel as kernel_module
 from linkage.program.cache import CompiledFile, compiled
 from linkage.program.elimination import expanded
 from linkage.program.interpret import noise
-from linkage.program.numpy_backend import FIRST, aligned, cache_size, with_half_angles
+from linkage.program.numpy_backend import aligned, cache_size, with_half_angles
 from linkage.program.schedule import ancestors, lowered, schedule
 from linkage.program.text import numba_text
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -101,15 +101,6 @@ def test_all_ways_agree_over_the_shipped_machines(machine):
     agree(kernel(inputs, way=RunOptions("floats")).values[:, 0], wanted, good)
     with np.errstate(all="ignore"):
         agree(as_loop(kernel, inputs).values[:, 0], wanted, good)
-
-
-@MACHINES
-def test_the_first_runs_node_by_node_are_those_of_the_text_to_the_last_bit(machine):
-    known, inputs = everything(machine, guarded=True), given(machine, 40)
-    kernel = Kernel(known.outputs, known.guards)
-    first, *_, last = (kernel(inputs, way=RunOptions("numpy")) for _ in range(FIRST + 1))
-    assert_array_equal(first.values, last.values)
-    assert_array_equal(first.guards, last.guards)
 
 
 @MACHINES

@@ -393,15 +393,16 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
         if not self.only_pushes or (found := self.pressed_wrongly(judge)) is None:
             return None
         by = {"force": force_words(found), "where": found.place}
-        text = said(
-            "the load pulls at it with {force}, {where}: both of its sides are on one line and no oil holds it. "
-            "Let the load press on it there, or give its rod side a line of its own.",
-            **by,
-        )
         if self.is_single_acting:
             text = said(
                 "the load pulls at it with {force}, {where}: it is single acting and no oil holds it; "
                 "let the load press on it there, or take a cylinder.",
+                **by,
+            )
+        else:
+            text = said(
+                "the load pulls at it with {force}, {where}: both of its sides are on one line and no oil holds it. "
+                "Let the load press on it there, or give its rod side a line of its own.",
                 **by,
             )
         return Verdict("holding", False, text, answer=found)

@@ -223,7 +223,7 @@ def blocked_blocks(subject: ReportSubject) -> Iterator[Block]:
     for row in rows:
         moves = said("{member} pushes", member=row.cylinder) if row.pushes else said("{member} pulls", member=row.cylinder)
         case = f"{subject.case_words(row.case)}, " if len(subject.judge.cases) > 1 else ""
-        size = figures(row.force / factor(shown_in("kN")))
+        size = figures(row.force / factor(shown_in("kN"))) if np.isfinite(row.force) else "∞"
         cells.append((*row.cells, size, moves, row.opens, f"{case}{places_text(row.strokes, plain_units)}"))
     force = said("F, {unit}", unit=unit_sign("kN"))
     heads = (*joint_heads(), force, said("cylinder"), said("first valve"), said("situation and place"))

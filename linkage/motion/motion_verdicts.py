@@ -144,8 +144,10 @@ class HasVerdicts(Member):
 
 
 HELD, DRIVES, PACE = "linkage.statics:held_verdict", "linkage.statics:drive_remarks", "linkage.statics:pace_remarks"
-THRUST = "linkage.statics:member_thrust"
 """What says of any machine whether it is held, what its drives give, where inertia is left out: in the room of forces, above."""
+
+THRUST = "linkage.statics:member_thrust"
+"""The thrust of a member, in the room of forces, above."""
 
 
 def refused_forces(judge: Judge) -> Verdict | None:
@@ -377,7 +379,7 @@ def is_asked(place: Domain, limits: StrokeLimits, value: float, near: float) -> 
     """Return whether a machine runs at a value of a stroke, the others held: at poses to what is `near`, else where conditions hold."""
     if place.over.shape != "poses" and not place.over.only:
         return True
-    there = StrokeLine(place.motion, limits.stroke, {name: at for name, at, _ in limits.held}).motion_at(np.array([value]))
+    there = motion_there(place.motion, limits, value)
     if place.over.shape == "poses":
         return bool(np.all([abs(given - there.strokes[name]) <= near for name, given in place.motion.strokes.items()], axis=0).any())
     with unwarned():
@@ -388,10 +390,15 @@ def is_carried(motion: Motion, limits: StrokeLimits, value: float, cylinder: str
     """Return whether a cylinder whose length stands still along one of several strokes has a thrust there: it holds another stroke."""
     if len(motion.plan.strokes) < 2:
         return False
-    there = StrokeLine(motion, limits.stroke, {name: at for name, at, _ in limits.held}).motion_at(np.array([value]))
     with suppress(DefinitionError), unwarned():
-        return bool(np.isfinite(from_above(THRUST)(there, motion.plan.members[cylinder], PLAIN)).all())
+        thrust = from_above(THRUST)(motion_there(motion, limits, value), motion.plan.members[cylinder], PLAIN)
+        return bool(np.isfinite(thrust).all())
     return False
+
+
+def motion_there(motion: Motion, limits: StrokeLimits, value: float) -> Motion:
+    """Return the pose at a value of a stroke, with the others where they are held."""
+    return motion.moved({name: np.array([at]) for name, at, _ in limits.held} | {limits.stroke: np.array([value])})
 
 
 def place_of(motion: Motion, limits: StrokeLimits, value: float, name: str, words: str = "") -> str:

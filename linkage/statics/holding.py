@@ -368,10 +368,8 @@ class Levers:
         turned = np.swapaxes(self.matrix, 1, 2)
         if turned.dtype != object and need.dtype != object:
             return np.asarray(np.linalg.solve(turned, need[:, :, None])[:, :, 0])
-        some = next(each for each in (*turned.ravel(), *need.ravel()) if isinstance(each, Traced))
-        graph, found = some.node.graph, np.empty((1, len(need[0])), object)
-        rows = [[graph.node(node_of(each)) for each in row] for row in turned[0]]
-        found[0] = [Traced(each, some.notes) for each in eliminated(rows, [graph.node(node_of(each)) for each in need[0]])]
+        found = np.empty((1, len(need[0])), object)
+        found[0] = traced_solution(turned[0], need[0])
         return cast(FloatArray, found)
 
     @cached_property
@@ -528,18 +526,29 @@ def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: 
 
 
 def inverse_size(rows: Sequence[Sequence[FloatArray]]) -> FloatArray:
-    """Return the size of the inverse of matrices of k rows, each number (n,): one over the least singular value, or root k times more."""
-    k = len(rows)
+    """Return the size of the inverse of matrices of k rows, each number (n,): the root of the sum of its squares."""
+    k, numbers = len(rows), [each for row in rows for each in row]
     with np.errstate(divide="ignore", invalid="ignore"):
+        if k > 3 and any(map(is_traced, numbers)):
+            parts = [each for unit in np.eye(k).tolist() for each in traced_solution(rows, unit)]
+            return cast(FloatArray, np.sqrt(scalar_product(parts, parts)))
         if k > 3:
-            return np.asarray(1.0 / np.linalg.svd(np.moveaxis(np.array(rows), -1, 0), compute_uv=False)[:, -1])
+            return np.asarray(np.sqrt(np.sum(np.linalg.svd(np.moveaxis(np.array(rows), -1, 0), compute_uv=False) ** -2, axis=-1)))
         if k == 2:
-            minors, det = [each for row in rows for each in row], rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0]
+            minors, det = numbers, rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0]
         else:
             crosses = [crossed(rows[1], rows[2]), crossed(rows[2], rows[0]), crossed(rows[0], rows[1])]
             minors, det = [each for row in crosses for each in row], scalar_product(rows[0], crosses[0])
         found = np.sqrt(scalar_product(minors, minors)) / np.abs(det)
     return found if is_traced(found) else np.where(det == 0.0, np.inf, found)
+
+
+def traced_solution(rows: Sequence[Sequence[object]], right: Sequence[object]) -> list[FloatArray]:
+    """Return the unknowns of a linear system of a law that is being traced; NaN or infinity where it is singular."""
+    some = next(each for row in (*rows, right) for each in row if isinstance(each, Traced))
+    graph = some.node.graph
+    nodes, ends = ([[graph.node(node_of(each)) for each in row] for row in part] for part in (rows, [right]))
+    return cast(list[FloatArray], [Traced(each, some.notes) for each in eliminated(nodes, ends[0])])
 
 
 def crossed(a: Sequence[FloatArray], b: Sequence[FloatArray]) -> list[FloatArray]:

@@ -27,8 +27,6 @@ from .poses import AnyMotion, FlatPoses, motion_of_whole, plan_of
 from .solution import AGREES, LEAST, PoseForces, disagreeing, held_in_case, locked_words
 
 Made = TypeVar("Made")
-MOST_WRITTEN = 3
-"""Lines of cylinders that hold together in a program: whether the levers of more are near a singular pose, no formula of nodes tells."""
 
 
 @takes_situation
@@ -193,10 +191,7 @@ def member_thrust_on(motion: AnyMotion, member: TwoPoint, acting: Acting) -> Flo
     if not is_among(member, own):  # it is tried in the place of the machine's own one between the same points
         member = next((each for each in own if each.holds and set(each.ends) == set(member.ends)), member)
     holders = holders_of(plan, [*(each.element for each in applied_elements(plan, replace(acting, case=None))), member])
-    line, count = holders.line_of(member), len(holders.lines)
-    is_written = count <= MOST_WRITTEN or all(each.steady for each in holders.lines)
-    if line is not None and isinstance(motion, TracedMotion) and not is_written:
-        raise UntracedError(f"{count} lines of cylinders hold together, and a program is written for {MOST_WRITTEN} at the most.")
+    line = holders.line_of(member)
     rates = member_rates(motion, member, acting, line if line in holders.lines else None)
     if rates.has_friction and not rates.is_timed:
         elements = applied_elements(plan, acting)

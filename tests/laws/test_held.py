@@ -60,7 +60,7 @@ from linkage.statics import drive_remarks, held_verdict, looseness
 from linkage.study import zone
 from linkage.units import bar, deg, litre, mm
 from linkage.verdict import Remark
-from tests.for_all import for_all
+from tests.for_all import first_daily, for_all
 from tests.laws.test_oil_twins import Double
 from tests.laws.test_statics_laws import daily, shipped
 from tests.linkage.random_mechanisms import random_mechanism
@@ -472,3 +472,29 @@ def test_a_machine_that_is_assembled_nowhere_says_so_and_not_that_its_cylinder_h
     for door in (short.verdicts, lambda: motion[thrust("ram")], lambda: short.answers([most(thrust("ram"))]), lambda: pin_forces(motion)):
         with pytest.raises(AssemblyError, match=r"AB = .* m\. Shorten the stroke or lengthen OB"):
             door()
+
+
+def arm_of(count, seed):
+    """Return an arm of `count` links, each turned against the one before, with a ram from the frame to each."""
+    random, members, turned = np.random.default_rng(seed), {"P0": Ground(0.0, 0.0)}, 0.0
+    for k in range(1, count + 1):
+        members[f"s{k}"] = Stroke(0.0, 0.2)
+        turned = turned + ref(f"s{k}")
+        length = {f"P{k - 1}P{k}": random.uniform(0.6, 1.2)}
+        members[f"P{k}"] = Crank(f"P{k - 1}", angle=turned + random.uniform(-0.4, 0.6), **length)
+        members[f"F{k}"] = Ground(*random.uniform(-1.5, 0.0, 2))
+        members[f"ram{k}"] = Cylinder(f"F{k}", f"P{k}", bore=80 * mm, rod=50 * mm)
+        members[f"w{k}"] = Weight(f"P{k}", mass=random.uniform(50.0, 200.0))
+    return type("Arm", (Mechanism,), members)()
+
+
+@first_daily(2, "count, seed", [(4, 0), (5, 1), (6, 2), (2, 3), (3, 4)])
+def test_a_program_has_the_forces_of_any_number_of_cylinders(count, seed):
+    machine, random = arm_of(count, seed), np.random.default_rng(seed)
+    asked = [pin_force("P0"), pin_force("F1"), *(thrust(f"ram{k}") for k in range(1, count + 1))]
+    strokes = {f"s{k}": random.uniform(0.0, 0.2, 5) for k in range(1, count + 1)}
+    found, motion = machine.evaluate(asked, **strokes), machine.at(**strokes)
+    for each, values in zip(asked, found, strict=True):
+        assert_allclose(values, motion[each], rtol=1e-10)
+    for k in range(1, count + 1):
+        assert_allclose(np.abs(pin_forces(motion).thrusts[f"ram{k}"]), np.abs(motion[thrust(f"ram{k}")]), rtol=1e-10)

@@ -82,17 +82,13 @@ function led(point, to) {
   const off = (values) => { const found = single(present, standing(values)); return found.reason[0] === 0 ? spot(found, point, 0).map((each, axis) => each - to[axis]) : null; };
   const { at, misses } = solved(runsAlong.map((k) => stands[k]), ends, off);
   if (!misses) return false;
+  const isMet = (value, [low, high]) => min(abs(value - low), abs(value - high)) <= 1e-9 * (high - low || 1);
   const held = runsAlong.filter((k, j) => isMet(at[j], ends[j])), away = hypot(...misses);
   stands = standing(at);
-  const beyond = away <= 2e-3 ? null : held.length ? probed(point, to, stands, held) : barred(point, to, runsAlong, at, ends);
+  const named = held.map((k) => `${titled(strokes[k])} = ${shown(stands[k], strokes[k], 4)}`).join(", "), isShort = away > 2e-3;
+  const beyond = isShort && (named ? say("{name} ends here: {strokes} is the end of the stroke, {gap} short", { name: scene.names[point], strokes: named, gap: shown(away, data.length, 3) }) : barred(point, to, runsAlong, at, ends));
   warn(beyond || "");
   return !beyond;
-}
-const isMet = (value, [low, high]) => min(abs(value - low), abs(value - high)) <= 1e-9 * (high - low || 1);
-/* Return what ends a way at the ends of strokes. */
-function probed(point, to, at, held) {
-  const named = held.map((k) => `${titled(strokes[k])} = ${shown(at[k], strokes[k], 4)}`).join(", ");
-  return say("{name} ends here: {strokes} is the end of the stroke, {gap} short", { name: scene.names[point], strokes: named, gap: shown(apart(to, spot(single(present, at), point, 0)), data.length, 3) });
 }
 /* Return what ends a way where a step cannot be placed a little beyond; null where nothing does. */
 function barred(point, to, names, at, ends) {
@@ -195,9 +191,6 @@ function measureText(real) {
 /* ---- the curve read at the mouse; a press moves the stroke there ---- */
 
 let glass = null;
-function reader() {
-  glass = { line: draw(plot, "line", { class: "rule", dash: "2 3", visibility: "hidden" }), text: draw(plot, "text", { class: "halo read", visibility: "hidden" }) };
-}
 function under(event) {
   const box = plot.getBoundingClientRect(), { along, x } = chart, at = event.clientX - box.left, a = x(along[0]), b = x(along[along.length - 1]);
   return { share: min(max((at - a) / (b - a || 1), 0), 1), at: min(max(at, min(a, b)), max(a, b)) };
@@ -212,12 +205,5 @@ on(plot, "pointermove", (event) => {
   if (plot.hasPointerCapture(event.pointerId)) strokeTo(share);
 });
 on(plot, "pointerleave", () => { if (glass) for (const each of Object.values(glass)) set(each, { visibility: "hidden" }); });
-function strokeTo(share) {
-  const { start, end } = strokes[runs], at = [...stands];
-  play(false);
-  at[runs] = start + (end - start) * share;
-  moved(present, at, titled(strokes[runs]));
-  clock = phaseNow();
-  soon("pose"); remember();
-}
+function strokeTo(share) { const each = strokes[runs]; each.put(each.start + (each.end - each.start) * share); }
 on(plot, "pointerdown", (event) => { if (chart) { plot.setPointerCapture(event.pointerId); strokeTo(under(event).share); } });

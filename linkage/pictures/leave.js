@@ -69,7 +69,7 @@ on(byId("take"), "click", () => {
   for (const [k, value] of at) standing[k] = within(value, strokes[k]);
   for (const i of set.keys()) if (!chosen.includes(i)) chosen.push(i);
   play(false);
-  moved(design, standing, say("The text"));
+  taken(design, standing);
   listSizes(); soon("design"); remember();
 });
 
@@ -117,7 +117,7 @@ on(byId("keep"), "click", () => {
 });
 /* What the verdicts find of designs that do not change. */
 const judged = new WeakMap();
-const foundOf = (design) => judged.get(design) ?? judged.set(design, asking.ask(vector(design), STILL, true).found).get(design);
+const foundOf = (design) => judged.get(design) ?? judged.set(design, asking.ask(vector(design), STILL, true)).get(design);
 /* The designs in columns: the dimensions in which they differ, the ends of the curve, and the live rules that fail in one of them. */
 function compared() {
   const table = byId("kept"), head = make("tr"), all = [{ letter: say("now"), design: present }, { letter: say("delivered"), design: original }, ...kept];
@@ -141,10 +141,12 @@ function compared() {
     rows.push(line(say("least {name}", { name: heading(one) }), curves.map((list) => (list.length ? short(min(...list), 4) : "\u2013"))));
     rows.push(line(say("greatest {name}", { name: heading(one) }), curves.map((list) => (list.length ? short(max(...list), 4) : "\u2013"))));
   }
-  const found = all.map(({ design }) => (design === present ? asked(down.size ? DRAGGING : STILL).found : foundOf(design)));
+  const answers = all.map(({ design }) => (design === present ? asked(down.size ? DRAGGING : STILL) : foundOf(design)));
   asking.laid(vector(present));
-  questions.forEach((each, q) => { if (found.some(({ [q]: { ok, unknown } }) => ok === false || unknown)) rows.push(line(ruled(each), found.map(({ [q]: one }) => (one.unknown ? "\u2013" : `${one.ok === false ? "\u2715 " : ""}${ruleNumber(each, one)}`)))); });
-  rows.push(line(say("rules that fail, live"), found.map((list) => String(list.filter((each) => each.ok === false).length))));
+  const crossed = (fails) => (fails ? "\u2715 " : "");
+  if (answers.some((each) => goneOf(each).length)) rows.push(line(say("assembly"), answers.map((each) => crossed(goneOf(each).length) || "\u2713")));
+  questions.forEach((each, q) => { if (answers.some((one) => isKept(one, one.found[q]) === false || one.found[q].unknown)) rows.push(line(ruled(each), answers.map((one) => (one.found[q].unknown ? "\u2013" : `${crossed(isKept(one, one.found[q]) === false)}${ruleNumber(each, one.found[q])}`)))); });
+  rows.push(line(say("rules that fail, live"), answers.map((each) => String(failing(each)))));
   const top = make("thead"), body = make("tbody");
   top.append(head); body.append(...rows);
   table.replaceChildren(top, body);
@@ -165,7 +167,3 @@ function inSystem(name) {
   byId("system").value = system;
 }
 on(byId("system"), "change", (event) => { inSystem(event.target.value); speak(); remember(); });
-function systems() {
-  byId("system").replaceChildren(option(say("units as given"), ""), ...Object.keys(data.systems).map((name) => option(data.systemNames[name], name)));
-  byId("system").value = system;
-}

@@ -14,6 +14,7 @@ const columns = data.columns.map(([name, unit, row, ru, values]) => ({ name, uni
 /* The situation that is shown: of the place that was gone to, else of the path that runs. */
 let acting = -1;
 const caseNow = () => (acting < 0 ? (data.situationOf[strokes[runs].over] ?? 0) : acting);
+const actingIn = (name) => { const k = data.cases.findIndex((each, k) => each === name && data.timeOf[k] === data.timeOf[caseNow()]); return k === caseNow() ? -1 : k; };
 const caseTitle = (name) => (data.cases.some(Boolean) ? name || say("own loads") : "");
 for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y", "couple", "atX", "atY"]) if (each[name]?.length) {
   const row = each[name];
@@ -84,19 +85,31 @@ function why(found, i, what) {
   if (missing > 0) return say("{what}: {step} is {gap} short", { what, step: name, gap: shown(missing, data.length, 3) });
   return say("{what}: {step} cannot be placed", { what, step: name });
 }
+/* Return the last values where something holds and where it does not, by halving `n` times. */
+function halved(good, bad, holds, n) {
+  for (; n > 0; n--) { const t = 0.5 * (good + bad); if (holds(t)) good = t; else bad = t; }
+  return [good, bad];
+}
 /* Move part of the state as far towards what is asked as can be assembled; say why where that is not all the way. */
 function moved(design, at, what) {
   const asked = single(design, at);
   if (asked.reason[0] === 0) { present = design; stands = at; warn(""); return true; }
   const from = present, stood = stands, between = (a, b, t) => a.map((value, i) => (value === b[i] ? value : value + (b[i] - value) * t));
-  let low = 0, high = 1, best = null;
-  for (let i = 0; i < 24; i++) {
-    const t = 0.5 * (low + high), trial = [between(from, design, t), between(stood, at, t)];
-    if (single(...trial).reason[0] === 0) { low = t; best = trial; } else high = t;
-  }
-  if (best) [present, stands] = best;
+  const trial = (t) => [between(from, design, t), between(stood, at, t)], [most] = halved(0, 1, (t) => single(...trial(t)).reason[0] === 0, 24);
+  if (most > 0) [present, stands] = trial(most);
   warn(why(asked, 0, say("{what} stops here", { what })));
   return false;
+}
+/* Set all that is asked; where that cannot be assembled, one after the other, and say what stays as it is. */
+function taken(design, at) {
+  const asked = single(design, at), left = [], lists = asked.reason[0] === 0 ? [design, at] : [[...present], [...stands]];
+  for (const [k, [wanted, all]] of [[design, dims], [at, strokes]].entries()) for (const [i, value] of wanted.entries()) {
+    const before = lists[k][i];
+    lists[k][i] = value;
+    if (value !== before && single(...lists).reason[0] !== 0) { lists[k][i] = before; left.push(all[i].name); }
+  }
+  moved(...lists, "");
+  if (left.length) warn(why(asked, 0, say("{names} stays as it is", { names: left.join(", ") })));
 }
 let fading;
 function warn(text) {
@@ -233,7 +246,7 @@ function legend() {
 }
 
 const beside = () => (showsForces || data.cylinders.some((each) => each.pressure !== undefined) ? 34 : 0);
-const room = () => beside() + (data.task && data.task.points ? 36 : 0);
+const room = () => beside() + (data.task?.points ? 36 : 0);
 function build() {
   const paths = () => data.paths.map((point) => {
     const line = draw(sheet, "path", { class: "line", w: 2.2, dash: "0.1 4.6", stroke: css("accent") });
@@ -354,7 +367,7 @@ function plotted() {
   if (!values) write(L + 8, T + 18, known, { class: "note halo" });
   byId("column").title = known && `${called(one)}: ${known}`;
   if (compares) write(W - R, H - 6, say("dashed: as delivered"), { anchor: "end" });
-  reader();
+  glass = { line: draw(plot, "line", { class: "rule", dash: "2 3", visibility: "hidden" }), text: draw(plot, "text", { class: "halo read", visibility: "hidden" }) };
   chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });
   chart.marker = draw(plot, "circle", { r: 6, w: 2, fill: css("curve"), stroke: css("paper") });
 }
@@ -400,7 +413,7 @@ function strokeSliders() {
       soon(k === runs && !turns ? "pose" : "sweep"); remember();
     };
     row.append(label, slider, out);
-    each.slider = slider; each.out = out;
+    Object.assign(each, { slider, out, put });
     return row;
   });
   byId("strokes").replaceChildren(...rows.slice(own.length), ...rows.slice(0, own.length));
@@ -483,7 +496,7 @@ function choosers() {
   byId("column").replaceChildren(...all); byId("column").value = String(column);
   byId("second").replaceChildren(option("\u2013", -1), ...all.map((each) => each.cloneNode(true))); byId("second").value = String(second);
   byId("run").replaceChildren(...strokes.map((each, k) => option(titled(each), k))); byId("run").value = String(runs);
-  const cases = data.cases.map((name, k) => [name, k]).filter(([name, k]) => k === caseNow() || data.cases.indexOf(name) === k && name !== data.cases[caseNow()]);
+  const cases = data.cases.map((name, k) => [name, k]).filter(([name, k]) => k === caseNow() || data.timeOf[k] === data.timeOf[caseNow()] && name !== data.cases[caseNow()]);
   byId("case").replaceChildren(...cases.map(([name, k]) => option(caseTitle(name), k))); byId("case").value = String(caseNow());
   for (const [id, count] of Object.entries({ runs: strokes.length - 1, cases: cases.length - 1, forces: data.arrows.length })) byId(id).style.display = count ? "" : "none";
   byId("forces").setAttribute("aria-pressed", String(showsForces));
@@ -502,7 +515,8 @@ function speak() {
   labelled();
   document.querySelector("h1").textContent = document.title = language === "ru" ? data.titleRu : data.title;
   for (const name of ["undo", "redo", "nearer", "farther", "whole", "grid", "measure"]) byId(name).setAttribute("aria-label", byId(name).title);
-  systems();
+  byId("system").replaceChildren(option(say("units as given"), ""), ...Object.keys(data.systems).map((name) => option(data.systemNames[name], name)));
+  byId("system").value = system;
   byId("play").setAttribute("aria-label", playing ? say("Pause") : say("Play"));
   toldBefore = hereBefore = "";
   listSizes(); choosers(); compared(); soon("fit");
@@ -540,7 +554,7 @@ function recall(text = location.hash.slice(1)) {
   const design = dims.map((each) => { const value = number(said.get(`d.${each.name}`), each.value); return each.positive && !(value > 0) ? each.value : value; });
   runs = index(strokes, said.get("run")) < 0 ? data.run : index(strokes, said.get("run"));
   showsForces = said.get("forces") === "1";
-  acting = data.cases.indexOf(said.get("case"));
+  acting = -1; acting = actingIn(said.get("case"));
   column = index(columns, said.get("column")) < 0 ? data.column : index(columns, said.get("column"));
   second = index(columns, said.get("with"));
   if (said.has("show")) chosen = said.get("show").split(" ").map((each) => byName.get(each)).filter((i) => i !== undefined);
@@ -553,7 +567,7 @@ function recall(text = location.hash.slice(1)) {
   });
   present = [...original]; stands = firstStand();
   begin();
-  moved(design, at, say("The link"));
+  taken(design, at);
   return true;
 }
 on(window, "hashchange", () => { if (recall()) { play(false); speak(); soon("design"); } });

@@ -257,6 +257,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     rows, index = {name: each[0] for name, each in live.rows.items()}, {name: place for place, name in enumerate(plan.points)}
     lines = {track.name: [rows[f"track {track.name} {k}"] for k in range(4)] for track in requests.scene.tracks}
     run, strokes, judge = requests.run, stroke_data(requests), requests.questions.data(live)
+    motions = [each.motion for each in requests.situations]  # situations of one path in time, or at rest, have the first of them
     asked = [each[key]["unit"] for each in judge["questions"] for key in ("unit", "saysUnit") if key in each]
     depth = {index[name]: name.count(".") for name in plan.moving if name in index}
     with language("ru"):
@@ -271,6 +272,7 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "column": list(requests.columns).index(requests.column),
         "cases": [case_named(plan, each.case) if each.case is not None else "" for each in requests.situations],
         "situationOf": requests.situation_of,
+        "timeOf": [motions.index(each) for each in motions],
         "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},
         "rows": {"points": [[rows[f"point {name}"] + axis for axis in (0, 1)] for name in plan.points]},
         "scene": scene_data(requests.scene, lines),
@@ -367,7 +369,7 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
         ends = list(given) if given else [0.5 * value, 1.0] if entry.kind == "efficiency" else four_digits(reach)
         where = entry.where if entry.kind in STEPS else ""
         low, high = ends if isinstance(ends, list) else (value - ends, value + ends)
-        sizes = [each for each in made.get(name, ()) if low / 1.3 <= each <= 1.3 * high]  # the next one beyond its slider, too
+        sizes = [each for each in made.get(name, ()) if low / 1.3 <= each <= 2.0 * high]  # beyond its slider, too, as a remedy may be
         row = [name, value, ends, unit_typeset(unit), int(entry.kind == "length"), where, sizes]
         found.append(row[: 7 if sizes else 6 if where else 5])
     return found

@@ -67,9 +67,15 @@ def page_situations(machine: Mechanism, judge: Judge, run: Run) -> tuple[list[Pa
     of_places = [PageSituation(case_shown(machine, each), each.motion if each.instants is not None else None) for each in judge.places]
     own = [each for each, place in zip(of_places, judge.places, strict=True) if place.over.name == run.title and each.motion is not None]
     first = own[0] if run.instants is not None and own else PageSituation(run.case)
-    named = [(name, case_of(machine.plan, name)) for name in judge.cases if any(each.instants is None for each in judge.places)]
-    others = [None if name == PLAIN_CASE else name for name, case in named if not case.shut and case.only is None]  # of the same bodies
-    found = list(dict.fromkeys((first, *of_places, *map(PageSituation, others))))
+    named = [(name, case_of(machine.plan, name)) for name in judge.cases]
+    alike = [name for name, case in named if not case.shut and case.only is None]  # of the same bodies
+    others = (
+        PageSituation(None if name == PLAIN_CASE else name, each.motion)
+        for each, place in zip(of_places, judge.places, strict=True)
+        for name in alike
+        if each.motion is None or name in place.cases(judge.acting)
+    )
+    found = list(dict.fromkeys((first, *of_places, *others)))
     return found, [found.index(each) for each in of_places]
 
 

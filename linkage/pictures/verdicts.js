@@ -66,16 +66,16 @@ function delivered() {
   });
 }
 
+/* Where places are lost, `assembly` fails; the other rules are kept or not over those that are left. What fails counts so everywhere. */
+const goneOf = ({ lost }) => lost.filter((each) => each.share && !each.allowed);
+const isKept = (answers, { ok, kept }) => (goneOf(answers).length && ok === false ? kept : ok);
+const failing = (answers) => answers.found.filter((each) => isKept(answers, each) === false).length + (goneOf(answers).length ? 1 : 0);
+
 /* ---- what is said: rows with the member they are of, whether they are kept, and the share of their limit ---- */
 
 function verdicts(n = STILL) {
   const found = [], add = (ok, rule, text, more) => found.push({ ok, rule, text, member: "", share: NaN, ...more }), changed = isChanged(), answers = asked(n);
-  const gone = answers.lost.filter((each) => each.share && !each.allowed);
-  const live = (question, q) => {
-    const each = answers.found[q], ok = gone.length && each.ok === false ? each.kept : each.ok;
-    add(ok, ruled(question), answerText(question, each), { member: question.member, share: shareOf(question, each), open: each.ok === null, q });
-  };
-  assembled(answers, gone, changed, add);
+  assembled(answers, goneOf(answers), changed, add);
   if (changed) for (const text of deadPoints()) add(true, say("dead points"), text);
   if (changed) tight(answers, add);
   if (data.task) add(null, say("task"), missWords());
@@ -85,7 +85,10 @@ function verdicts(n = STILL) {
     else if (!each.isFollowed) add(null, each.rule, each.text, { stale: true, open: true });
   }
   const told = new Set(data.facts.map(([, key]) => key));
-  for (const [q, question] of questions.entries()) if (changed || !(question.member || told.has(question.key))) live(question, q);
+  for (const [q, question] of questions.entries()) if (changed || !(question.member || told.has(question.key))) {
+    const each = answers.found[q];
+    add(isKept(answers, each), ruled(question), answerText(question, each), { member: question.member, share: shareOf(question, each), open: each.ok === null, q });
+  }
   for (const each of data.cylinders) cylinder(each, changed, add);
   return found;
 }
@@ -127,7 +130,7 @@ function reachEnd(start, k, from, sign, size) {
   let good = 0, bad = 0;
   for (let i = 1; i <= 16 && !bad; i++) { const away = (size * i) / 16; if (at(from + sign * away).reason[0] === 0) good = away; else bad = away; }
   if (!bad) return [];
-  for (let i = 0; i < 30; i++) { const away = 0.5 * (good + bad); if (at(from + sign * away).reason[0] === 0) good = away; else bad = away; }
+  [good, bad] = halved(good, bad, (away) => at(from + sign * away).reason[0] === 0, 30);
   const reason = at(from + sign * bad).reason[0], step = reason > 0 ? engine.steps[reason - 1] : "", stroke = own[k];
   return good ? [[good, say("of {step} at {where}, {away} beyond it", { step: data.steps[step] || step, where: standText(stroke, from + sign * good), away: shown(good, stroke, 3) })]] : [];
 }
@@ -141,8 +144,7 @@ function ends(lost) {
   const told = [];
   for (const [a, b] of stretches(lost)) for (const [inside, outside] of [[a - 1, a], [b + 1, b]]) {
     if (inside < 0 || inside >= COUNT || told.length > 3) continue;
-    let good = now.along[inside], bad = now.along[outside];
-    for (let i = 0; i < 20; i++) { const middle = 0.5 * (good + bad), at = [...stands]; at[runs] = middle; if (single(present, at).reason[0] === 0) good = middle; else bad = middle; }
+    const [good] = halved(now.along[inside], now.along[outside], (value) => single(present, stands.map((each, j) => (j === runs ? value : each))).reason[0] === 0, 20);
     const k = now.reason[outside], step = k > 0 ? engine.steps[k - 1] : "";
     told.push(say("of {step} at {where}, where the reach ends", { step: data.steps[step] || step, where: strokeText(good) }));
   }
@@ -248,17 +250,16 @@ function mending(q) {
   }));
   return place;
 }
-/* The dimensions with the least changes [its place, value] that make a rule hold and let no other fail: sought with few poses, and judged as all is. Of what is made in sizes, as bores are, the next size, and the exact value beside it. */
+/* The dimensions with the least changes [its place, value] that make a rule hold and let no other fail: sought with few poses, and judged as all is. Of what is made in sizes, as bores are, the next size, beyond its slider too, and the exact value beside it. */
 function remedies(q) {
-  const failing = (found) => found.filter(({ ok }) => ok === false).length, before = failing(asked(STILL).found), best = new Map();
+  const before = failing(asked(STILL)), best = new Map();
   const holds = (i, value, n = 3) => {
-    const { found } = asking.ask(vector(present.map((each, k) => (k === i ? value : each))), n, n === STILL);
-    return found[q].ok === true && failing(found) < before;
+    const answers = asking.ask(vector(present.map((each, k) => (k === i ? value : each))), n, n === STILL);
+    return answers.found[q].ok === true && failing(answers) < before;
   };
-  for (const [i, each] of dims.entries()) for (const end of [each.low, each.high]) {
+  for (const [i, each] of dims.entries()) for (const end of new Set([each.low, each.high, min(each.low, ...each.sizes), max(each.high, ...each.sizes)])) {
     const at = (t) => present[i] + (end - present[i]) * t;
-    let low = 0, high = [1, 0.25, 0.06].find((t) => holds(i, at(t)));
-    for (let k = 0; high && k < 6; k++) { const t = 0.5 * (low + high); if (holds(i, at(t))) high = t; else low = t; }
+    const first = [1, 0.25, 0.06].find((t) => holds(i, at(t))), [high] = halved(first, 0, (t) => holds(i, at(t)), first ? 6 : 0);
     if (high < (best.get(i)?.t ?? 2)) best.set(i, { t: high, i, at: (t) => (end < present[i] ? floor : ceil)(at(t) / nice(each)) * nice(each) });
   }
   const made = (i, value) => { const near = dims[i].sizes.filter((each) => (value > present[i] ? each >= value : each <= value)), size = (value > present[i] ? near : near.reverse()).find((each) => holds(i, each, STILL)); return size && size !== value ? [i, size, value] : [i, value]; };
@@ -288,7 +289,7 @@ function withPlaces(text) {
     const said = place.replace(/\.$/, ""), at = strokesIn(said);
     if (!at) continue;
     const button = make("a", { href: "#mechanism", role: "button", className: "place", textContent: said, title: say("Take the machine there") });
-    const before = text.slice(from, index), acts = data.cases.findIndex((name) => before.includes(caseWords(name))), [, instant = ""] = before.match(/([\d\u202f]+(?:[.,]\d+)?)[ \u2009\u00a0][s\u0441] \($/) || [];
+    const before = text.slice(from, index), acts = data.cases.find((name) => before.includes(caseWords(name))), [, instant = ""] = before.match(/([\d\u202f]+(?:[.,]\d+)?)[ \u2009\u00a0][s\u0441] \($/) || [];
     const named = strokes.findIndex((each) => each.path && before.includes(say("over {over}", { over: each.name }))), path = instant && named < 0 ? strokes.findIndex((each) => each.courses) : named;
     on(button, "click", (event) => { event.preventDefault(); goTo(at, path, acts, instant); });
     found.push(text.slice(from, index), button);
@@ -310,7 +311,7 @@ function goTo(places, path, acts, instant) {
   play(false);
   if (path >= 0) runsOn(path);
   else if (strokes[runs].path || places.every(([k]) => k !== runs)) runsOn(places[0][0]);
-  acting = acts >= 0 && data.cases[acts] !== data.cases[caseNow()] ? acts : -1;
+  acting = -1; acting = actingIn(acts);
   const at = [...stands];
   if (path >= 0) at[path] = instant ? within(typed(instant, strokes[path], 1), strokes[path]) : placeOn(path, places); else for (const [k, value] of places) at[k] = value;
   moved(present, at, say("The place"));

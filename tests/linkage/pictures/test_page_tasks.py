@@ -191,6 +191,13 @@ def test_five_tasks_are_done_on_shipped_machines(chromium, kind, change, rule, b
         check_tasks(shown, kind, change, rule, by, other, tmp_path, capsys)
 
 
+class Weak(Stacker):
+    """The same with a cylinder of which a remedy is beyond its slider."""
+
+    lift = Cylinder("A", "B", bore=32 * mm, rod=18 * mm, closed=0.82, stroke=0.40)
+    loading = None
+
+
 def test_dead_points_beyond_all_that_several_overs_run_are_pythons(chromium, own):
     design = {"TD": 0.301}
     with Shown(chromium, own, DESKTOP) as shown:
@@ -232,12 +239,12 @@ class InSeconds(LoadedLever):
     """A lever on a pump that is too weak, lowered in time."""
 
     rub = None
-    rise = Over.path(S=ramp(0.48, 0.32, speed=0.1, acceleration=0.5), cases=["full"])
+    rise = Over.path(S=ramp(0.48, 0.32, speed=0.1, acceleration=0.5), cases=["plain", "full"])
     pump = LiftCircuit("lift", pressure=30 * bar)
 
 
 def test_a_place_of_a_path_in_time_is_gone_to_at_its_instant(chromium, tmp_path):
-    machine, gone = InSeconds(), 0
+    machine, gone, cases = InSeconds(), 0, set()
     (name,) = machine.plan.of_kind(Over)
     with Shown(chromium, page(machine, tmp_path / "in_seconds.html"), DESKTOP) as shown:
         for button in shown.tab.locator("#groups .place").all():
@@ -250,4 +257,33 @@ def test_a_place_of_a_path_in_time_is_gone_to_at_its_instant(chromium, tmp_path)
             assert shown(f"hydrolinkage.state().at['{name}']") == pytest.approx(float(told[1]), abs=1e-9), before
             assert "outside what is judged" not in shown.tab.locator("#here").text_content()
             gone += float(told[1]) > 0.5
-    assert gone
+            cases.add(case := shown("document.querySelector('#case').selectedOptions[0].textContent"))
+            assert (f"in the case {case}" if case != "own loads" else "under its own loads") in before
+        shown.tab.locator("#case").select_option(label="own loads")
+        rested(shown)
+        assert "load case: own loads" in shown.tab.locator("#curve").text_content()
+    assert gone and "full" in cases
+
+
+def test_one_count_of_what_fails_and_sizes_that_are_asked_for(chromium, own, tmp_path):
+    """Where a design is lost in places; a text of which not all can be reached; a remedy beyond its slider."""
+    with Shown(chromium, own, DESKTOP) as shown:
+        shown("hydrolinkage.set({ design: { OB: 0.33 } })")
+        rested(shown)
+        shown.tab.locator("#keep").click()
+        rested(shown)
+        rows = shown("[...document.querySelectorAll('#kept tr')].map((row) => [...row.children].map((each) => each.textContent.trim()))")
+        fails = shown("document.getElementById('badge').dataset.fails")
+        assert ["assembly", "\u2715", "\u2713", "\u2715"] in rows and rows[-1][1] == rows[-1][3] == fails != rows[-1][2]
+        crossed = [row[0] for row in rows[1:] if row[1].startswith("\u2715")]
+        failing = {each.partition(":")[0] for each in shown.tab.locator("#groups li.bad").all_text_contents()}
+        assert len(crossed) == len(failing) == int(fails), (crossed, failing)
+        shown.tab.locator("#reset").click()
+        shown.tab.locator("#text").fill("lift.bore=90mm OB=5m lift.rod=50mm")
+        shown.tab.locator("#take").click()
+        rested(shown)
+        design = shown.state["design"]
+        assert [design[name] for name in ("lift.bore", "lift.rod", "OB")] == pytest.approx([0.09, 0.05, 0.95], abs=1e-12)
+        assert shown.text("#message").startswith("OB stays as it is: ")
+    with Shown(chromium, page(Weak(), tmp_path / "weak.html"), DESKTOP) as shown:
+        mends(shown, "holding", "lift.bore")

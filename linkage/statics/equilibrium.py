@@ -278,7 +278,7 @@ class System:
             factors = [poses.flattened(poses.motion._placed.value(each)) ** power for power, each in gear.factors]
             own = self.unknown(gear.joint, gear.letter, 1.0).multiplied(reduce(np.multiply, factors, poses.zeros() + gear.sign))
             yield self.unknown(gear.contact, "c", 1.0).plus(own), poses.zeros()
-        for stroke in sorted(set[str]().union(*self.structure.geared)):
+        for stroke in sorted(self.structure.holders.strokes_taken.intersection(set[str]().union(*self.structure.geared))):
             forms = [force.multiplied(ratio) for ratio, force in self.step_drives(stroke)]
             yield reduce(LinearForm.plus, forms), poses.zeros()
 

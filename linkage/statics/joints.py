@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import product
+from itertools import chain, product
 from typing import TypeAlias
 
 import numpy as np
@@ -159,7 +159,7 @@ def two_point_members(
     found = []
     for bar in plan.cylinders:
         strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
-        if (strokes - holders.strokes_taken or strokes in geared) and not holders.line_quantities & plan.reaches(bar.length):
+        if (holders.strokes_taken.isdisjoint(strokes) or strokes in geared) and not holders.line_quantities & plan.reaches(bar.length):
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
     struts = [*found, *cylinders, *known_struts(given)]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
@@ -345,7 +345,7 @@ class Structure:
         self.gears: list[Gear] = []
         self.fixed = frame_points(plan)
         self.holders: Holders = holders_of(plan, elements)
-        self.geared = self.shared_strokes() if is_geared else set()
+        self.geared = self.shared_strokes(is_geared)
         bodies, self.struts, self.pairs = free_bodies(plan, self.holders, thrusts, self.geared)
         sliding = dict.fromkeys((joint.point, plan.track(joint)) for _, joint in plan.joints if joint.kind == "guide")
         guides, joined = Counter(point for point, _ in sliding), Counter(point for body in bodies for point in body.points)
@@ -429,8 +429,9 @@ class Structure:
     def left(self, owner: str, joint: Joint) -> str:
         """Return the directions a joint still holds when cylinders have taken over strokes."""
         strokes, given = self.followed(joint)
-        gone = {letter: names for letter, names in strokes.items() if letter not in given and self.is_taken(names)}
-        gone = {letter: names for letter, names in gone.items() if frozenset(names) not in self.geared}
+        over = self.holders.strokes_taken
+        gone = {letter: names & over for letter, names in strokes.items() if letter not in given and names not in self.geared}
+        gone = {letter: names for letter, names in gone.items() if names}
         taken = sorted(set().union(*gone.values()))
         if len(gone) > len(taken):
             what = f"{owner}.joints(): {' and '.join(gone)} are driven by {', '.join(taken)}, which a cylinder takes over"
@@ -449,27 +450,35 @@ class Structure:
                     strokes[drive.along] |= follows & set(self.plan.strokes)
         return strokes, given
 
-    def is_taken(self, strokes: set[str]) -> bool:
-        """Return whether cylinders have taken over some strokes."""
-        return bool(strokes) and strokes <= self.holders.strokes_taken
+    def shared_strokes(self, is_geared: bool) -> set[frozenset[str]]:
+        """Return the sets of strokes, some of them taken over, on which more joints and lengths hang than strokes are taken over.
 
-    def shared_strokes(self) -> set[frozenset[str]]:
-        """Return the strokes taken over that more joints follow than they are themselves, as geared cranks do, or a rack beside a body."""
-        plan, joints = self.plan, [(each, frozenset(names)) for each in self.plan.joints for names in self.followed(each[1])[0].values()]
-        shared = {names for names, count in Counter(names for _, names in joints).items() if count > len(names)}
-        shared |= {names for (name, joint), names in joints if any(geared_to(plan, joint, name))}
-        driven = [bar.length for bar in plan.cylinders] + [drive.quantity for _, joint in plan.joints for drive in joint.drives]
-        for given in driven:  # what follows another length that is driven
-            if any(is_driven(plan, each) for _, term in signed_terms(given, plan.members) for _, each in plan.factors(term)):
-                shared.add(frozenset({*plan.strokes} & plan.reaches(given)))
-        return {names for names in shared if self.is_taken({*names})}
+        Such joints keep their drives, as geared cranks do, and what these give together does no work on a stroke that is taken over: always
+        where one follows another stroke as well, else where cranks, or a rack beside a body, `is_geared`.
+        """
+        plan, taken, groups = self.plan, self.holders.strokes_taken, list[list[frozenset[str]]]()
+        joints = [(each, frozenset(names)) for each in plan.joints for names in self.followed(each[1])[0].values()]
+        lengths = [frozenset(name for name in plan.strokes if name in plan.reaches(bar.length)) for bar in plan.cylinders]
+        for names in [names for names in (*(names for _, names in joints), *lengths) if names & taken]:
+            near = [group for group in groups if names & taken & frozenset().union(*group)]
+            groups = [*(group for group in groups if group not in near), [names, *chain(*near)]]
+        sizes = [(group, frozenset[str]().union(*group)) for group in groups]
+        found = [group for group, strokes in sizes if len(group) > len(strokes & taken) and (is_geared or strokes - taken)]
+        shared = set(chain(*found))
+        if is_geared:
+            shared |= {names for (name, joint), names in joints if names & taken and any(geared_to(plan, joint, name))}
+            driven = [bar.length for bar in plan.cylinders] + [drive.quantity for _, joint in plan.joints for drive in joint.drives]
+            for given in driven:  # what follows another length that is driven
+                if any(is_driven(plan, each) for _, term in signed_terms(given, plan.members) for _, each in plan.factors(term)):
+                    shared.add(frozenset({*plan.strokes} & plan.reaches(given)))
+        return {names for names in shared if names & taken}
 
     def turned_by_gears(self) -> tuple[str, ...]:
         """Return where gears give couples or forces: pivots of cranks and racks geared to a body or to each other, lengths beside racks."""
         turned = [each for each in self.contacts if "c" in each.joint.holds]
         coupled = [each for each in turned if frozenset(self.followed(each.joint)[0]["c"]) in self.geared]
         followed = {each.name: self.plan.reaches(each.quantity.name or each.quantity) for each in self.struts if each.quantity is not None}
-        lengths = [name for name, behind in followed.items() if self.is_taken({*self.plan.strokes} & behind)]
+        lengths = [name for name, behind in followed.items() if frozenset({*self.plan.strokes} & behind) in self.geared]
         return tuple(dict.fromkeys((*(each.point for each in (*coupled, *(gear.joint for gear in self.gears))), *lengths)))
 
     def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:

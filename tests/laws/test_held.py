@@ -1,6 +1,7 @@
 """What is held: every shipped machine is; one that is loosened says so first, and every door of forces is closed by the same sentence."""
 
 import warnings
+from contextlib import suppress
 from functools import partial
 from math import pi
 
@@ -29,6 +30,7 @@ from linkage import (
     OnLink,
     Over,
     Part,
+    SingularError,
     SingularWarning,
     Stroke,
     Support,
@@ -498,3 +500,43 @@ def test_a_program_has_the_forces_of_any_number_of_cylinders(count, seed):
         assert_allclose(values, motion[each], rtol=1e-10)
     for k in range(1, count + 1):
         assert_allclose(np.abs(pin_forces(motion).thrusts[f"ram{k}"]), np.abs(motion[thrust(f"ram{k}")]), rtol=1e-10)
+
+
+def sums_of_strokes(seed):
+    """Return cranks and carriages that follow sums of two or three strokes, and rams on some of them."""
+    random, strokes = np.random.default_rng(seed), [f"s{k}" for k in range(2 + seed % 2)]
+    members, points = {name: Stroke(0.0, 0.3) for name in strokes} | {"O": Ground(0.0, 0.0), "K": Ground(0.3, -0.6)}, []
+    for k in range(3):
+        signs = random.permutation([1.0, *random.choice([-2.0, -0.5, 0.0, 0.7, 1.0], len(strokes) - 1)])
+        follows, point = sum(factor * ref(name) for factor, name in zip(signs, strokes, strict=True) if factor), f"P{k}"
+        if random.random() < 0.5:
+            base = random.choice(["O", *points])
+            members[point] = Crank(base, angle=random.uniform(-1.0, 1.0) + follows, **{base + point: random.uniform(0.5, 1.0)})
+        else:
+            members[f"g{k}"] = Guide(tuple(random.uniform(-1.0, 1.0, 2)), angle=random.uniform(-3.0, 3.0))
+            members[point] = OnGuide(f"g{k}", at=random.uniform(-0.5, 0.5) + follows)
+        points.append(point)
+        members["w" + point] = Weight(point, mass=random.uniform(10.0, 100.0))
+    for k in range(int(random.integers(1, len(strokes) + 1))):
+        ends = random.choice(["K", *points], 2, replace=False)
+        members[f"ram{k}"] = Cylinder(*ends, bore=60 * mm, rod=30 * mm)
+    return type("Sums", (Mechanism,), members)()
+
+
+@first_daily(2, "seeds", [range(8 * k, 8 * k + 8) for k in range(12)])
+def test_what_follows_several_strokes_has_one_thrust_by_work_and_by_equilibrium(seeds):
+    agree = 0
+    for machine in map(sums_of_strokes, seeds):
+        rams, strokes = [name for name in machine.plan.members if name.startswith("ram")], {name: 0.17 for name in machine.strokes}
+        with warnings.catch_warnings(), suppress(SingularError):
+            warnings.simplefilter("ignore", SingularWarning)
+            motion = machine.at(**strokes)
+            try:
+                expected = [motion[thrust(name)] for name in rams]
+            except DefinitionError:  # a ram between points that no stroke parts
+                continue
+            forces = pin_forces(motion)
+            assert_allclose([forces.thrusts[name] for name in rams], expected, rtol=1e-9)
+            assert forces.residual < 1e-10 and forces.gap < 1e-9
+            agree += 1
+    assert agree >= 3

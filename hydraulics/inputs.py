@@ -23,6 +23,7 @@ from linkage.plan import ArrayReading
 from linkage.plan.table import efficiency_words
 from linkage.program import Comparison, is_traced
 from linkage.quantities import Member, NamedMembers, Quantity, Reference, name_of, needs, quantity
+from linkage.quantities.member import is_reference
 from linkage.steps import Link
 from linkage.units import require_measure
 
@@ -171,7 +172,7 @@ def only_where(truth: Any, value: Array) -> Array:
 
 def follows(*values: object) -> bool:
     """Return whether one of the values is no number: a quantity, or the name of one."""
-    return any(isinstance(value, Quantity) or (isinstance(value, str) and value.isidentifier()) for value in values)
+    return any(isinstance(value, Quantity) or is_reference(value) for value in values)
 
 
 def following(*values: Any) -> tuple[Quantity, ...]:

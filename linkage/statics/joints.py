@@ -451,10 +451,10 @@ class Structure:
         return strokes, given
 
     def shared_strokes(self, is_geared: bool) -> set[frozenset[str]]:
-        """Return the sets of strokes, some of them taken over, on which more joints and lengths hang than strokes are taken over.
+        """Return the sets of strokes which more joints and lengths follow than cylinders take over of them.
 
-        Such joints keep their drives, as geared cranks do, and what these give together does no work on a stroke that is taken over: always
-        where one follows another stroke as well, else where cranks, or a rack beside a body, `is_geared`.
+        These keep their drives, as geared cranks do: what they give together does no work on a stroke that is taken over. Cranks of one
+        stroke, or a rack beside a body, only where `is_geared`.
         """
         plan, taken, groups = self.plan, self.holders.strokes_taken, list[list[frozenset[str]]]()
         joints = [(each, frozenset(names)) for each in plan.joints for names in self.followed(each[1])[0].values()]

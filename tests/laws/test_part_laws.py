@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import Crank, Ground, Mechanism, Outline, Over, Part, SingularWarning, Stroke, deg, pin_forces
+from hydraulics import Cylinder, LiftCircuit
+from linkage import RIGHT, Crank, Dyad, Ground, Mechanism, Outline, Over, Part, SingularWarning, Stroke, Weight, deg, pin_forces
 from linkage.files import load, to_toml
 from linkage.loads import ForceElement, LoadCase
 from linkage.quantities import Dimension, Quantity
@@ -190,3 +191,18 @@ def test_a_machine_of_parts_is_saved_and_pickled(machine):
 def test_cases_and_overs_stay_with_their_class(machine):
     members = whole(machine).plan.members.values()
     assert not any(isinstance(member, (Over, LoadCase)) for member in members)
+
+
+@for_all("lines", [{"bore": "D"}, {"pressure": "p"}, {"bore": "D", "pressure": "p", "mechanical_efficiency": "n"}])
+def test_sizes_of_a_part_may_follow_its_own_dimensions(lines):
+    class Arm(Mechanism):
+        S = Stroke(0.0, 0.25)
+        A, O, D, p, n = Ground(0.2, 0.55), Ground(0.3, 1.15), Dimension(0.08), Dimension(20e6), Dimension(0.95)
+        B = Dyad(A, O, AB=0.5 + S, OB=0.3, side=RIGHT)
+        load = Weight(B, mass=600)
+        ram = Cylinder(A, B, bore=lines.get("bore", 0.08), rod=0.045, stroke=0.26, closed=0.49)
+        pump = LiftCircuit(ram, pressure=lines.get("pressure", 20e6), mechanical_efficiency=lines.get("mechanical_efficiency", 0.9))
+
+    whole = type("Whole", (Mechanism,), {"arm": Part(Arm)})()
+    flat = [str(each) for each in Arm().verdicts()]
+    assert [str(each).replace("arm.", "") for each in whole.verdicts()] == flat and len(flat) > 8

@@ -407,17 +407,17 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
             )
         return Verdict("holding", False, text, answer=found)
 
-    def pressed(self, which: Ram | str) -> Condition:
+    def pressed(self, which: Ram | str, judge: Judge) -> Condition:
         """Return the condition that the load is on the side that works everywhere, with the drive at rest; of the class's, or of itself."""
-        thrust = thrust_request(which, Acting(direction=FRICTIONLESS))
+        thrust = thrust_request(which, at_rest(judge))
         return most(thrust) <= 0.0 if self.side == "rod" else least(thrust) >= 0.0
 
     def pressed_wrongly(self, judge: Judge, pressed: Condition | None = None) -> Answer | None:
         """Return the answer on a load against the side that works, or on another condition; None where there is none, to rounding."""
-        found = judge.answer(self.pressed(self) if pressed is None else pressed)
+        found = judge.answer(self.pressed(self, judge) if pressed is None else pressed)
         if found.ok or np.isnan(found.value):
             return None
-        ends = judge.answers(least_and_most(thrust_request(self, Acting(direction=FRICTIONLESS))))
+        ends = judge.answers(least_and_most(thrust_request(self, at_rest(judge))))
         size = max((abs(each.value) for each in ends if np.isfinite(each.value)), default=0.0)
         return None if abs(found.value) <= TO_ROUNDING * size and not found.unbounded else found
 
@@ -514,7 +514,7 @@ class Ram(TwoPoint, Tabled, HasVerdicts):
     def pressure_on(self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False) -> Array:
         """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds, or with `below` negative values.
 
-        At rest without friction and efficiencies; while it moves, and where it stands in a motion in time, on a side that works, as its
+        At rest, also where it stands in a motion in time, without friction and efficiencies; while it moves, on a side that works, as its
         circuit has it. A side on another line that keeps its own pressure has that; both sides on one line have one. A side on no line is
         shut behind its pump's valve, and without pressure beside a closed line.
         """
@@ -1138,7 +1138,7 @@ class Cylinder(BarrelAndRod, Ram):
         list
             The questions.
         """
-        return [*super().questions(judge), *([self.pressed(self)] if self._is_bare(judge) else [])]
+        return [*super().questions(judge), *([self.pressed(self, judge)] if self._is_bare(judge) else [])]
 
     def _is_bare(self, judge: Judge) -> bool:
         """Return whether it works with one side, carries loads, and no line or circuit has it."""
@@ -1905,6 +1905,12 @@ def judge_of(motion: Motion, what: str, acting: Acting | None = None, *, unreach
     ensure(not motion._design_shape, f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
     ensure(not unreached or motion.reached.any(), unreached)
     return Judge(motion.plan, motion.designs, [motion], acting).lost_allowed()
+
+
+def at_rest(judge: Judge) -> Acting:
+    """Return how a load acts where everything stands, with the pump off: over a path in time without inertia, and no damper works."""
+    is_timed = any(each.instants is not None for each in judge.places)
+    return Acting(direction=FRICTIONLESS, rates=dict.fromkeys(judge.plan.strokes, 0.0) if is_timed else None)
 
 
 def is_named(reference: Reference) -> bool:

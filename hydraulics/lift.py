@@ -18,7 +18,7 @@ import numpy as np
 from linkage.errors import DefinitionError, ensure, known_name, unknown
 from linkage.frozen import immutable
 from linkage.language import noted, said, said_of, with_and
-from linkage.loads import FRICTIONLESS, Acting, Case, ForceElement, Loads, Parameter, case_in_words, situation_of
+from linkage.loads import Acting, Case, ForceElement, Loads, Parameter, case_in_words, situation_of
 from linkage.motion import Answer, Judge, Motion, PageWords, Question, Span, below_zero, over_time, reached_spans, require_motion
 from linkage.motion.measures import Condition, at, least, most
 from linkage.quantities import NamedMembers, Reference, distance, label, of_kind
@@ -29,6 +29,7 @@ from linkage.verdict import Remark, Verdict
 
 from .cylinders import (
     PISTON,
+    ROD,
     SIDES,
     TO_ROUNDING,
     AllOf,
@@ -36,6 +37,7 @@ from .cylinders import (
     OnLines,
     Ram,
     Side,
+    at_rest,
     carries_loads,
     judge_of,
     least_and_most,
@@ -389,7 +391,7 @@ class LiftingCylinder:
     @property
     def standing(self) -> list[Question]:
         """The greatest pressures of its sides at rest, as questions."""
-        return [most(pressure_request(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in self.sides]
+        return [most(pressure_request(self.ram, at_rest(self.judge), self.circuit, side)) for side in self.sides]
 
     @property
     def sides(self) -> Sequence[Side]:
@@ -402,7 +404,7 @@ class LiftingCylinder:
         """Return that the side that works holds the load where another line keeps the other one at its own pressure; None for none."""
         behind = other_side(self.ram)
         none = behind is None or all(is_free(self.ram, behind, self.circuit, self.judge.plan, case) for case in self.judge.cases)
-        return None if none else least(left_request(cylinder, Acting(direction=FRICTIONLESS), circuit, behind)) >= 0.0
+        return None if none else least(left_request(cylinder, at_rest(self.judge), circuit, behind)) >= 0.0
 
     def conditions(self) -> dict[str, Condition]:
         """Return its conditions: it lifts, holds on both sides, and goes back."""
@@ -411,8 +413,8 @@ class LiftingCylinder:
         held, supply = (at(number_request(self.circuit, f" {each.__name__}", each)) for each in laws)
         back = [most(going_back_request(*asked, way)) for way in self.ways_back]
         sinks = AllOf(tuple(each <= supply if self.ram.side == "both" else each <= 0.0 for each in back))
-        holding = most(pressure_request(self.ram.name, Acting(direction=FRICTIONLESS), self.circuit.name)) <= held
-        pressed = self.ram.pressed(self.ram.name) if self.ram.only_pushes else self.left(self.ram.name, name)
+        holding = most(pressure_request(self.ram.name, at_rest(self.judge), self.circuit.name)) <= held
+        pressed = self.ram.pressed(self.ram.name, self.judge) if self.ram.only_pushes else self.left(self.ram.name, name)
         return {
             "lifting": least(reserve_request(*asked)) >= 1.0,
             "holding": holding if pressed is None else AllOf((holding, pressed)),
@@ -544,19 +546,19 @@ class LiftingCylinder:
             text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.place)
             return Verdict("holding", False, text, answer=endless)
         if loose is not None:
-            by = {"force": show(-loose.value, "kN", 4), "where": loose.place, "remedy": said("Let the load press on it.")}
+            acts, other = said("pulls at it"), said("let the load press on it")
+            if self.ram.side == ROD:
+                acts, other = said("presses on it"), said("let the load pull at it")
+            by = {"force": show(-loose.value, "kN", 4), "where": loose.place, "acts": acts, "other": other}
+            by["remedy"] = f"{other[:1].upper()}{other[1:]}."
             beside = line_beside(self.ram, other_side(self.ram), circuit, self.judge.plan.members)
             if beside is not None and beside.kind_in(self.judge.plan.members) != "closed":
                 place, sizes = self.judge.there(loose), self.ram.sized(self.judge.motion)
                 area = sizes.pull_area if other_side(self.ram) != PISTON else sizes.push_area
                 stands = beside.line_pressure(place, self.judge.situation(loose)) - loose.value / area
-                held = show_enough(float(np.squeeze(stands)), self.unit)
-                by["remedy"] = said(
-                    "Let a load case shut this line and that side's, which then has to bear {held}, or let the load press on it.", held=held
-                )
-            text = said(
-                "the load pulls at it with up to {force} more than its other side gives, {where}: no oil holds it there. {remedy}", **by
-            )
+                by["held"] = show_enough(float(np.squeeze(stands)), self.unit)
+                by["remedy"] = said("Let a load case shut this line and that side's, which then has to bear {held}, or {other}.", **by)
+            text = said("the load {acts} with up to {force} more than its other side gives, {where}: no oil holds it there. {remedy}", **by)
             return Verdict("holding", False, text, answer=loose)
         words = [said("piston side") if side == PISTON else said("rod side") for side in order]
         words[1:] = [f"{words[-1]}{'' if self.ram.side == 'both' else said(' where the load drives')}"] if words[1:] else []

@@ -479,6 +479,9 @@ class LiftLine(Circuit):
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
         found = np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]
+        goes = ram.goes(motion, acting)
+        if goes is not None:  # where it stands no oil flows and nothing rubs
+            found = np.where(goes == 0.0, np.maximum(work.along + work.against, 0.0) / work.area, found)
         return over_valves(self, ram, motion, acting, found)
 
     def pressure_behind(self, cylinder: Ram, motion: AnyMotion, acting: Acting) -> Array:
@@ -753,13 +756,14 @@ class LiftLine(Circuit):
     def holding(
         self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None
     ) -> Holding:
-        """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on.
+        """Return the pressures that hold the thrust with the pump off; neither friction, inertia nor an efficiency is counted on.
 
         A side on another line that keeps its own pressure, a tank's or gas's, has that, and holds nothing more. Of a line of several
         cylinders the greatest, unless one is named.
         """
         given = situation_of("holding", acting, loads=loads, case=case)
-        plain, working, other = Acting(given.loads, given.case), [], []
+        stands = None if motion.time is None else dict.fromkeys(motion.plan.strokes, 0.0)
+        plain, working, other = Acting(given.loads, given.case, rates=stands), [], []
         for ram in self.meant(motion, cylinder):
             size, thrust = ram.sized(motion), line_thrust(ram, self, motion, plain)
             working.append(np.maximum(size.sense * thrust, 0.0) / size.area)

@@ -360,12 +360,12 @@ class Telescope(Ram):
             The conditions by their rules.
         """
         found = dict(super().conditions(judge))
-        return found | ({"holding": self.pressed(self.name)} if self._is_alone(judge) else {})
+        return found | ({"holding": self.pressed(self.name, judge)} if self._is_alone(judge) else {})
 
     def size_verdicts(self, judge: Judge) -> list[Verdict]:
         if not self._is_alone(judge):
             return []
-        found = judge.answer(self.pressed(self))
+        found = judge.answer(self.pressed(self, judge))
         if np.isnan(found.value):
             return []
         pulled = self.pulled(judge)

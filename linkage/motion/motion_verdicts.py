@@ -330,7 +330,7 @@ SCARCELY = 0.01
 
 def nearest_dead_points(motion: Motion, limits: StrokeLimits, span: tuple[float, float]) -> Iterator[tuple[bool, float, str]]:
     """Yield the nearest dead points before and behind the part of a stroke that runs: which of both, how far away, and that in words."""
-    low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
+    low, high = span
     before = max((each for each in limits.dead_points if each[0] <= low), default=None)
     behind = min((each for each in limits.dead_points if each[0] >= high), default=None)
     for is_behind, each in enumerate((before, behind)):
@@ -347,8 +347,8 @@ def dead_point_verdicts(place: Domain, limits: StrokeLimits, span: tuple[float, 
 
     At an end it is a fault where it is `pushed` by a cylinder, which cannot start from there.
     """
-    motion, (low, high) = place.motion, span if span[0] < span[1] else sorted((limits.start, limits.end))
-    near = NEAR_END * (high - low)
+    motion, (low, high) = place.motion, span
+    near = NEAR_END * (high - low or abs(limits.end - limits.start))
     points = {each: max(low - each[0], each[0] - high) for each in limits.dead_points if is_asked(place, limits, each[0], near)}
     inside = "; ".join(place_of(motion, limits, *each) for each, away in points.items() if away < -near)
     at_end = "; ".join(place_of(motion, limits, *each) for each, away in points.items() if abs(away) <= near)

@@ -206,6 +206,17 @@ def test_a_dead_point_counts_where_the_machine_runs_and_for_the_stroke_that_the_
 
 
 @first_daily(2, "seed", range(12))
+def test_of_a_stroke_that_is_held_only_its_place_counts(seed):
+    arm = float(np.random.default_rng(seed).uniform(0.6, 1.0))
+    dead = float(np.arctan2(-0.8, 0.5))  # O, K and B in line
+    fixed = type(jib(arm, (0.5, 0.2), None))
+    alone = type("Alone", (fixed,), {"t": None, "rail": None, "K": Ground(0.5, 0.2)})
+    for at in (dead - 0.2, dead + 0.2, 0.3):
+        assert not fails(type("Held", (alone,), {"way": Over(phi=at)})())
+    assert fails(type("Held", (alone,), {"way": Over(phi=dead)})()) >= {"cylinder's dead point", "holding", "lifting"}
+
+
+@first_daily(2, "seed", range(12))
 def test_a_length_that_stands_still_along_a_screw_is_no_dead_point_of_what_the_cylinder_holds(seed):
     random = np.random.default_rng(seed)
     arm, foot = random.uniform(0.7, 0.9), (random.uniform(0.3, 0.38), 0.2)

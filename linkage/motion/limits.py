@@ -325,12 +325,13 @@ NO_LENGTH = 1e-7
 def place_text(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `123.4 mm`, `25.00 deg`, `100.0 to 200.0 mm`.
 
-    Lengths below 1 mm have three figures: `0.340 mm`.
+    Lengths below 1 mm have three figures: `0.340 mm`. Of a batch those without a value are left out.
     """
-    digits, shown, most = {"rad": 2, "": 4, "m3": 3}.get(unit, 1), shown_stroke_unit(unit), float(np.max(np.abs(value)))
+    value = np.ravel(value)
+    digits, shown, most = {"rad": 2, "": 4, "m3": 3}.get(unit, 1), shown_stroke_unit(unit), float(np.fmax.reduce(np.abs(value)))
     if unit == "m" and NO_LENGTH < most < mm:
         digits = 2 - floor(log10(most / mm))
-    low, high = (shown_number(float(each), shown, f"z.{digits}f") for each in (np.min(value), np.max(value)))
+    low, high = (shown_number(float(each), shown, f"z.{digits}f") for each in (np.fmin.reduce(value), np.fmax.reduce(value)))
     return f"{low if low == high else said('{low} to {high}', low=low, high=high)} {unit_sign(shown)}".rstrip()
 
 

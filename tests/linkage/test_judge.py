@@ -254,6 +254,8 @@ def test_a_batch_is_told_in_units_and_by_its_designs():
     many = Rocker(L0=[0.45, 0.6])
     high, whole = many.answers([most(y("B")), reachable])
     assert re.fullmatch(r"[0-9.]+ mm to [0-9.]+ mm at S = .*", str(high))
+    some = Rocker(L0=[0.45, 5.0]).answers([most(y("B"))])[0]  # the second is assembled nowhere, and has no place
+    assert str(some) == str(Rocker(L0=0.45).answers([most(y("B"))])[0])
     assert str(whole) == "1 of 2 designs cannot be assembled over the whole motion"
     assert str(Rocker(L0=[0.45, 0.46]).answers([reachable])[0]) == "every place is assembled"
 

@@ -430,9 +430,10 @@ class LiftingCylinder:
 
     @property
     def lowers_alone(self) -> bool:
-        """Whether it goes back by the load, on which there is a verdict here: over no valve that holds the line, and by no other pump."""
+        """Whether it goes back by the load, on which there is a verdict here: by no valve, no other pump, no cylinder of both sides."""
         valved = any(each.holds_line(self.circuit) for each in self.judge.plan.of_kind(OnLines).values())
         pumped = self.ram.side == "both" and self.circuit.has_both_sides(self.judge.plan.members)
+        pumped |= self.ram.side != "both" and self.circuit.goes_both_ways(self.ram, self.judge.plan)
         return not valved and not pumped and not self.goes_back_by_another
 
     def show(self, pressure: Array | float, missed: float | None = None) -> str:

@@ -20,7 +20,7 @@ from typing import Any, Unpack, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, FormerName, UnfitError, UntracedError, ensure, fits_shape, one_word, unwarned
+from linkage.errors import DefinitionError, FormerName, UnfitError, UntracedError, ensure, fits_shape, one_word
 from linkage.frozen import immutable
 from linkage.language import said, with_and
 from linkage.loads import AS_IT_RUNS, SENSES, Acting, ActingKeywords, Case, Loads, situation_of
@@ -43,6 +43,7 @@ from linkage.statics import (
     plan_of,
     pump_thrust,
     same,
+    stroke_followed,
 )
 from linkage.statics.carried import IDLE, direction_at, is_steady, pull_direction, pulling
 from linkage.units import require_measure, show
@@ -753,6 +754,11 @@ class LiftLine(Circuit):
 
     # -- holding and lowering ------------------------------------------------------------------------------
 
+    def goes_both_ways(self, ram: Ram, plan: Plan) -> bool:
+        """Return whether the line drives a cylinder both ways: it works with both sides, or moves with one of the line that does."""
+        both = [each for each in self.members(plan.members) if each.side == "both"]
+        return any(same(each, ram) or stroke_followed(plan, each) == stroke_followed(plan, ram) for each in both)
+
     def holding(
         self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, acting: Acting | None = None
     ) -> Holding:
@@ -782,8 +788,8 @@ class LiftLine(Circuit):
     ) -> Lowering:  # fmt: skip
         """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
 
-        Of a cylinder that works with both sides it is the way that the load drives it, and where the load changes its sense over the
-        motion the harder of both. Of a line of several cylinders it is the one that goes back hardest, unless one is named.
+        Of a cylinder that works with both sides, or is moved with one, it is at each pose the way that the load drives it. Of a line of
+        several cylinders it is the one that goes back hardest, unless one is named.
         """
         given = situation_of("lowering", acting, loads=loads, case=case)
         require_measure(resistance, "bar", "lowering: resistance")
@@ -792,12 +798,13 @@ class LiftLine(Circuit):
         ensure(fits, f"resistance of the shape {np.shape(against)} does not fit the poses {motion.shape}.")
         found = []
         for ram in self.meant(motion, cylinder):
-            low = high = np.zeros(())
-            if ram.side == "both":
-                plain = partial(member_thrust, member=ram, acting=Acting(given.loads, given.case))
-                with unwarned():
-                    low, high = (np.asarray(ends(motion, plain).value) for ends in (lowest, greatest))
-            found += [way_back(ram, self, motion, given, way, against, k_m) for way in ram.ways_back(low, high)]
+            if not self.goes_both_ways(ram, motion.plan):
+                found.append(way_back(ram, self, motion, given, ram.ways_back(0.0, 0.0)[0], against, k_m))
+                continue
+            in_, out = (way_back(ram, self, motion, given, way, against, k_m) for way in ("retracting", "extending"))
+            presses = sums_back(ram, self, motion, Acting(given.loads, given.case), "retracting")[0] >= 0.0
+            alone, push, tank = (np.where(presses, *each) for each in zip(in_, out, strict=True))
+            found.append((alone, push, tank))
         working, pushes, tanks = zip(*found, strict=True)
         needed = [np.where(push > 0.0, push + tank, 0.0) for push, tank in zip(pushes, tanks, strict=True)]
         return Lowering(np.min(working, axis=0), np.max(needed, axis=0), np.asarray(np.max(pushes, axis=0) < 0.0))

@@ -83,6 +83,12 @@ def test_the_way_back_of_both_sides_is_that_of_the_one_that_the_load_asks_for(se
             assert all(each.ok for each in machine.verdicts() if each.rule.startswith("lowering"))
             back = hung(force, works, k_m, down[::-1], top and above).verdicts()
             assert {each.ok for each in back if each.rule.startswith("lowering")} == {None}  # it is lifted all the way
+    mixed = hung(force, "both", k_m, down, one)  # the one above carries nothing, and goes along
+    for ram in ("ram", "over"):
+        found = mixed.line.lowering(mixed.sweep(3), cylinder=ram)
+        assert np.allclose(found.working, abs(force) / areas[0] * k_m, rtol=1e-9) and found.by_itself.all()
+    (told,) = (each for each in mixed.verdicts() if each.rule.startswith("lowering"))
+    assert told.ok and told.rule == "lowering ram"
 
 
 def test_at_one_pose_no_oil_is_taken():

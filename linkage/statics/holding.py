@@ -135,13 +135,13 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     """Return the lines with the strokes they take."""
     ties = [tie for tie in (each.tie(plan.members) for each in elements) if tie is not None]
     closed = tuple(PressureLine(on_tie(tie), tie.cut, tie) for tie in ties if not tie.held and tie.gives)
-    cuts = {line.stroke for line in closed} | {name for tie in ties if tie.run is not None for name in tie.run.strokes}
+    cuts = {line.stroke for line in closed}
     if not ties and not joined_lines(plan, elements, ties):
         return Holders()
     motion, strokes = sampled(plan), list(plan.strokes)
     free, held = joined_lines(plan, elements, ties), independent(motion, [tie for tie in ties if tie.held])
     lines, tied = [*free, *map(on_tie, held)], [*(None for _ in free), *held]
-    follows = line_shares(motion, lines)
+    follows = line_shares(motion, lines, closed)
     follows[:, [name in cuts for name in strokes]] = 0.0  # the oil that is put in is driven by the closed line itself
     for line, row in zip(lines, follows, strict=True):
         if not row.any():
@@ -159,8 +159,9 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     pairs = [(line, strokes[place]) for line, place in zip(lines, best, strict=True)]
     taken = {stroke for _, stroke in pairs}
     for (line, stroke), own in zip(pairs, tied, strict=True):
-        is_shared = own is not None and {name for name in strokes if any(followed_way(motion, each, name) > 0.0 for each in line)} <= taken
-        apart = [] if is_shared else [each for each in line if not followed_way(motion, each, stroke) > 0.0]
+        ways = {name: [followed_way(motion, each, name, closed) for each in line] for name in strokes}
+        is_shared = own is not None and {name for name, way in ways.items() if any(way)} <= taken
+        apart = [] if is_shared else [each for each, way in zip(line, ways[stroke], strict=True) if not way > 0.0]
         if apart:
             what = f"{line_names(line)} are on one line, but {line_names(apart)} does not move with {stroke}"
             remedy = f"Give each a circuit of its own, LiftCircuit({line_names(apart[:1])}, pressure=...)"
@@ -210,7 +211,8 @@ def check_kept(motion: AnyMotion) -> bool:
             shares = [np.asarray(each.of(motion)) for each in tie.shares]
             parts = [share * each.member.growth(motion, {stroke: 1.0}) for share, each in zip(shares, tie.shares, strict=True)]
             added = motion.ratio(tie.added, wrt=stroke) if tie.added is not None else np.zeros(())
-            sizes = [np.abs(share) * ends_way(motion, each.member, stroke) for share, each in zip(shares, tie.shares, strict=True)]
+            ways = [sum(np.hypot(*motion.ratio(end, wrt=stroke)) for end in each.member.ends) for each in tie.shares]
+            sizes = [np.abs(share) * way for share, way in zip(shares, ways, strict=True)]
         whole, size = np.abs(sum(parts) - added), sum(map(np.abs, parts))
         if np.any((whole > KEPT * size) & (size > SLOWEST * sum(sizes))):
             takes = [np.ravel(part)[int(np.nanargmax(whole))] for part in np.broadcast_arrays(*parts)]
@@ -284,29 +286,39 @@ def sampled(plan: Plan, designs: Mapping[str, Numbers] | None = None) -> Motion:
     return Motion(plan, plan.defaults if designs is None else designs, strokes, "nan")
 
 
-def line_shares(motion: Motion, lines: Sequence[tuple[TwoPoint, ...]]) -> FloatArray:
+def line_shares(motion: Motion, lines: Sequence[tuple[TwoPoint, ...]], closed: Sequence[PressureLine] = ()) -> FloatArray:
     """Return how much each line's length follows each stroke, shape (lines, strokes), the sum of a line's being 1; 0 for not at all."""
-    ways = [[max(followed_way(motion, each, stroke) for each in line) for stroke in motion.plan.strokes] for line in lines]
+    ways = [[max(followed_way(motion, each, stroke, closed) for each in line) for stroke in motion.plan.strokes] for line in lines]
     found = np.reshape(np.array(ways, float), (len(lines), len(motion.plan.strokes)))
     total = found.sum(axis=1, keepdims=True)
     return np.asarray(found / np.where(total > 0.0, total, 1.0))
 
 
-def followed_way(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
-    """Return how much a cylinder's length follows a stroke over its range [m], at the most; 0 for not at all."""
+def alone(motion: AnyMotion, closed: Iterable[PressureLine], stroke: str) -> dict[str, FloatArray]:
+    """Return the rates of inputs on a unit of a stroke while the oil in closed lines, and the length of ropes, stay as they are.
+
+    What puts oil in or winds a rope up as the stroke goes on is a drive of its own: it takes its part from no cylinder.
+    """
+    rates = {stroke: np.ones(())}
+    for tie in [line.tie for line in closed if line.tie is not None and line.tie.cut != stroke]:
+        if tie.run is not None and stroke in tie.run.strokes:
+            rates[tie.cut] = -np.asarray(tie.run.rate(motion, stroke))
+        elif tie.added is not None and stroke in motion.plan.reaches(tie.added):
+            rates[tie.cut] = -np.asarray(motion.ratio(tie.added, wrt=stroke))
+    return rates
+
+
+def followed_way(motion: Motion, cylinder: TwoPoint, stroke: str, closed: Sequence[PressureLine] = ()) -> float:
+    """Return how much a cylinder's length follows a stroke alone over its range [m], at the most; 0 for not at all."""
     A, B = cylinder.ends
     plan, span = motion.plan, motion.plan.strokes[stroke]
     if stroke not in plan.reaches(A) | plan.reaches(B):
         return 0.0
     with unwarned():
-        rate, way = np.abs(cylinder.growth(motion, {stroke: 1.0})), ends_way(motion, cylinder, stroke)
+        poses, rates = FlatPoses(motion, "", {*plan.reaches(A), *plan.reaches(B)}), alone(motion, closed, stroke)
+        rate = np.abs(reduce(np.add, (poses.growth(A, B, name) * poses.flattened(each) for name, each in rates.items())))
+        way = np.hypot(*poses.rate(A, stroke)) + np.hypot(*poses.rate(B, stroke))
     return float(np.nan_to_num(np.where(rate > SLOWEST * way, rate, 0.0)).max(initial=0.0)) * abs(span.end - span.start)
-
-
-def ends_way(motion: AnyMotion, cylinder: TwoPoint, stroke: str) -> FloatArray:
-    """Return how far a cylinder's ends go on a unit of a stroke, together, shape (...)."""
-    A, B = cylinder.ends
-    return np.asarray(np.hypot(*motion.ratio(A, wrt=stroke)) + np.hypot(*motion.ratio(B, wrt=stroke)))
 
 
 def matched(follows: FloatArray) -> tuple[int, ...] | None:
@@ -449,9 +461,10 @@ def levers_of(poses: FlatPoses, holders: Holders, senses: Sequence[int]) -> Leve
         shares.append(tuple(weights) if line.tie is not None else tuple(weight / weights[0] for weight in weights))
         for cylinder, part in zip(line.cylinders, shares[-1], strict=True):
             for j, other in enumerate(lines):
-                lever, size = lever_of(poses, cylinder, other.stroke)
-                matrix[:, i, j] += part * lever
-                sizes[:, i, j] += np.abs(part) * size
+                for name, rate in alone(poses.motion, holders.closed, other.stroke).items():
+                    lever, size = lever_of(poses, cylinder, name)
+                    matrix[:, i, j] += part * lever * poses.flattened(rate)
+                    sizes[:, i, j] += np.abs(part * poses.flattened(rate)) * size
 
     def work(line: PressureLine, own: Sequence[FloatArray], stroke: str) -> FloatArray:
         """Return the work of a line on a unit of a stroke, with its cylinders' own shares."""

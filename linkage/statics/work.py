@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import replace
-from functools import partial
+from functools import partial, reduce
 from typing import TypeVar, Unpack
 from weakref import ref
 
@@ -21,7 +21,7 @@ from ..quantities import needs
 from ..units import require_number
 from .applied import AppliedLoads, applied_elements, applied_loads, member_title, path_tangent, rates_in
 from .force_program import forces_at
-from .holding import Holders, Levers, PressureLine, holders_of, is_among, same, settled, stroke_followed, with_levers
+from .holding import Holders, Levers, PressureLine, alone, holders_of, is_among, same, settled, stroke_followed, with_levers
 from .law_requests import TracedMotion, is_unchanging, once_in
 from .poses import AnyMotion, FlatPoses, motion_of_whole, plan_of
 from .solution import AGREES, LEAST, PoseForces, disagreeing, held_in_case, locked_words
@@ -271,7 +271,8 @@ def frictionless(
     poses, levers = with_levers(FlatPoses(motion, what, names), holders, what)
 
     def needed() -> tuple[FloatArray, list[FloatArray]]:
-        found = [by_work(poses, applied, line.stroke) for line in holders.lines]
+        ways = [alone(poses.motion, holders.closed, line.stroke).items() for line in holders.lines]
+        found = [reduce(np.add, (by_work(poses, applied, name) * poses.flattened(rate) for name, rate in way)) for way in ways]
         need = np.stack(found, axis=-1) if found else np.zeros((poses.count, 0))
         return need, [by_work(poses, applied, line.stroke) for line in holders.closed]
 

@@ -30,6 +30,7 @@ from linkage import (
     OnLink,
     Over,
     Part,
+    Rope,
     SingularError,
     SingularWarning,
     Stroke,
@@ -540,3 +541,43 @@ def test_what_follows_several_strokes_has_one_thrust_by_work_and_by_equilibrium(
             assert forces.residual < 1e-10 and forces.gap < 1e-9
             agree += 1
     assert agree >= 3
+
+
+@first_daily(2, "seed", range(10))
+def test_what_puts_oil_in_or_winds_a_rope_as_a_boom_rises_takes_nothing_from_its_cylinder(seed):
+    random = np.random.default_rng(seed)
+    share, mass, area = random.uniform(-0.2, 0.2), random.uniform(200.0, 900.0), np.pi / 4 * 0.08**2
+
+    class Levelled(Mechanism):
+        S, tilt = Stroke(1.04, 1.82), Stroke(-0.05, 0.05)
+        A, C, M = Ground(0.0, 1.5), Ground(0.3, 0.5), Ground(0.7, 0.45)
+        B = Dyad(C, A, CB=S, AB=1.0, side=RIGHT)
+        T, N, U = OnLink(A, B, AT=3.2), OnLink(A, B, AN=0.28), OnLink(A, B, AU=2.45)
+        master, slave = Cylinder(M, N, bore=80 * mm, rod=45 * mm), Cylinder(U, "W", bore=80 * mm, rod=45 * mm)
+        level = OilLine(master.piston_side, slave.piston_side, filled=dict(slave=0.86), oil=area * (tilt + share * (S - 1.04)))
+        W = Dyad(U, T, UW=slave.length, TW=0.28, side=RIGHT)
+        F = OnLink(T, W, TF=1.1, WTF=75 * deg)
+        lift = Cylinder(C, B, bore=125 * mm, rod=70 * mm)
+        load = Weight(F, mass=mass)
+
+    class Hook(Mechanism):
+        S, winch = Stroke(0.3, 1.2), Stroke(0.0, 3.0)
+        O, K, A = Ground(0.0, 0.0), Ground(0.5, -0.5), Ground(-0.5, 0.3)
+        P = Crank(O, OP=1.0, angle=S)
+        T = OnLink(O, P, OT=4.0)
+        rope = Rope(A, T, "H", length=6.0 + winch + 8.0 * share * S)
+        rail = Guide(T, angle=-90 * deg)
+        H = OnGuide(rail, at=rope.last)
+        load = Weight(H, mass=mass)
+        lift = Cylinder(K, P, bore=125 * mm, rod=70 * mm)
+
+    for machine, start, other, pin in ((Levelled(), 1.2, "tilt", "C"), (Hook(), 0.5, "winch", "K")):
+        at = {"S": start + random.uniform(0.0, 0.4), other: 0.03}
+        motion = machine.at(**at)
+        forces = pin_forces(motion)
+        assert_allclose(motion[thrust("lift")], forces.thrusts["lift"], rtol=1e-10)
+        assert_allclose(machine.evaluate([thrust("lift"), pin_force(pin, "lift")], **at), np.abs(forces.thrusts["lift"]), rtol=1e-10)
+        assert forces.gap < 1e-10 and not any(each.rule == "held" for each in machine.verdicts())
+        if other == "winch":  # the ram carries rope and hook as if the length of the rope stood still
+            still = type("Still", (Hook,), {"rope": Rope("A", "T", "H", length=6.03 + 8.0 * share * at["S"]), "winch": None})()
+            assert_allclose(still.at(S=at["S"])[thrust("lift")], motion[thrust("lift")], rtol=1e-10)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from linkage import Acting, ForceElement, LoadCase, Mechanism, Verdict
+from linkage import Acting, ForceElement, Mechanism, Verdict
 from linkage.cli.command import CSV, EVERY, PICTURES, Command, machine_options, option, picture, pose_options
 from linkage.cli.follow import ALONG, PAGE
 from linkage.cli.settings import CHECK, OVER, judged_code, judged_over, machine_of, motions_at, overs_of, print_verdicts, si_value
@@ -18,7 +18,7 @@ from linkage.errors import DefinitionError, cited, ensure, known_name, require
 from linkage.files.source import FileTable, Source, by_whole_names, measured_columns, source
 from linkage.frozen import immutable
 from linkage.language import noted, said
-from linkage.motion import Column, Judge, Motion, columns_of, least, stroke_measure
+from linkage.motion import Column, Judge, Motion, case_named, columns_of, least, stroke_measure
 from linkage.motion.limits import stroke_unit, timed_texts
 from linkage.quantities import Course, Reference, is_number
 from linkage.shown import text_columns
@@ -90,7 +90,7 @@ def programme_read(machine: Mechanism, file: str) -> Programme:
             demands[known_name("Cylinder", name, machine.plan.of_kind(Ram))] = demand_read(given, until)
     with faults.at_key("case"):
         case = data.get("case")
-        case = None if case is None else known_name("Load case", case, machine.plan.of_kind(LoadCase))
+        case = None if case is None else case_named(machine.plan, case)
     faults.check()
     ensure(demands, f"{path.name}: nothing is asked for; write {EXAMPLE}.")
     return Programme(pump_of(machine, data.get("pump")), demands, until, start, case)
@@ -174,7 +174,7 @@ def print_capacity(options: Namespace) -> int:
         raise DefinitionError(f"--along {options.along}: two numbers are expected, x and y, such as 0,1 for upwards.") from None
     along = x, y
     unit = pull_direction(along, "--")
-    case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
+    case = None if options.case is None else case_named(machine.plan, options.case)
     motions, tables = motions_at(machine, options), list[Table]()
     for run, over in motions:
         whole = over._with_gaps()

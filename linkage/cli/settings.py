@@ -15,7 +15,7 @@ from ..errors import AssemblyError, DefinitionError, SingularError, ensure, know
 from ..language import said, said_of
 from ..loads import DIRECTIONS, OWN_LOADS, PLAIN, PLAIN_CASE, Acting, Case, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, Over, Request, columns_of, out_of_reach, stroke_measure, stroke_unit
+from ..motion import Column, Motion, Over, Request, case_named, columns_of, out_of_reach, stroke_measure, stroke_unit
 from ..plan import Plan, plan_measure
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke
@@ -350,9 +350,10 @@ def acting_of(machine: Mechanism, options: Namespace) -> Acting:
     """
     title, cases = machine.plan.title, machine.plan.of_kind(LoadCase)
     case = PLAIN_CASE if options.case == OWN_LOADS else options.case
-    if case not in (None, PLAIN_CASE, *cases):
-        remedy = "" if cases else f" {title} declares none; write {case} = LoadCase({case!r}, scale=...)."
-        raise DefinitionError(f"{unknown('Load case', case, [PLAIN_CASE, *cases], where=title)}{remedy}")
+    if case not in (None, PLAIN_CASE):
+        remedy = f" {title} declares none; write {case} = LoadCase({case!r}, scale=...)."
+        ensure(cases, f"{unknown('Load case', case, [PLAIN_CASE], where=title)}{remedy}")
+        case = case_named(machine.plan, case)
     if options.drive is not None:
         known_name("Stroke", options.drive, machine.strokes, where=title)
     return Acting(case=case, direction=options.direction, drive=options.drive)

@@ -22,9 +22,8 @@ from typing import Any, TypeAlias, get_type_hints
 from ..disk import check_place
 from ..errors import DefinitionError, FileError, cited, ensure, is_listed, known_name, one_word, require, require_type, unknown
 from ..frozen import immutable
-from ..loads import PLAIN_CASE, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Over, stroke_measure
+from ..motion import Over, case_named, stroke_measure
 from ..plan import Plan, plan_measure
 from ..quantities import is_number, is_whole
 from ..study.problem import ranges_of
@@ -324,10 +323,9 @@ def part_said(head: StudyHead, stroke: str, given: object) -> Any:
 
 def case_said(head: StudyHead, given: object) -> Any:
     """Return the name of a load case, a list of names, or names with their hours; DefinitionError for an unknown one."""
-    cases = (PLAIN_CASE, *head.plan.of_kind(LoadCase))
-    for each in given if isinstance(given, (list, dict)) and given else [given]:
-        known_name("Load case", each, cases, where=head.plan.title)
-    return given
+    if isinstance(given, dict) and given:
+        return {case_named(head.plan, each): hours for each, hours in given.items()}
+    return [case_named(head.plan, each) for each in given] if isinstance(given, list) and given else case_named(head.plan, given)
 
 
 def count_at_least(least: int, head: StudyHead, given: Any) -> int:

@@ -324,7 +324,8 @@ class StudyPoses:
 
     def of_requests(self, machine: Mechanism, requests: Sequence[Any], way: RunOptions, poses: slice = slice(None)) -> list[FloatArray]:
         """Return requests of m designs at n of the poses, an array (m, n) each, NaN where they have no value."""
-        found = evaluate_grid(self.grid_at(machine, poses), requests, None, way, "nan")
+        asked = [bound_quantity(self.base.plan, each) for each in requests]
+        found = evaluate_grid(self.grid_at(machine, poses), asked, None, way, "nan")
         return [each.reshape(-1, each.shape[-1]) for each in found]
 
     def of_all(self, machine: Mechanism) -> Motion:

@@ -119,6 +119,7 @@ def test_a_load_case_and_a_direction_reach_every_force(said):
     for options, keywords in (
         ([], {}),
         (["--case", "transport"], {"case": "transport"}),
+        (["--case", "on the road"], {"case": "transport"}),
         (["--direction", "extending"], {"direction": "extending"}),
         (["--case", "transport", "--direction", "retracting"], {"case": "transport", "direction": "retracting"}),
     ):

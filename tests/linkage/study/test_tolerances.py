@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from hydraulics import Cylinder, LiftCircuit, pressure, reserve
+from hydraulics import Cylinder, LiftCircuit, fits, pressure, reserve
 from linkage import (
     LEFT,
     RIGHT,
@@ -26,6 +26,7 @@ from linkage import (
     angle,
     at,
     deg,
+    distance,
     drive_force,
     integral,
     kN,
@@ -276,6 +277,20 @@ def test_angles_do_not_jump_from_design_to_design():
     found = monte_carlo(Pointing(), ["way"], {"lead": 0.03}, count=256, S=0.0)
     assert_allclose(found["way"].sigma, 0.01, rtol=0.02)
     assert_allclose(found["way"].high - found["way"].low, 0.06, rtol=1e-9)
+
+
+def test_dimensions_by_their_names_are_measured_as_by_the_judge():
+    class Lever(Mechanism):
+        S = Stroke(0.0, 0.25)
+        A, O = Ground(0.2, 0.55), Ground(0.3, 1.15)
+        B = Dyad(A, O, AB=0.5 + S, OB=0.3, side=RIGHT)
+        ram = Cylinder(A, B, bore=80 * mm, rod=45 * mm, stroke=0.26, closed=0.49)
+
+    found = monte_carlo(Lever(), [at("ram.bore")], {"ram.closed": 20 * mm}, subject_to=[fits("ram")], count=256, S=S)
+    closed = np.ravel(found.designs["ram.closed"])
+    assert found.good.tolist() == ((closed <= 0.5) & (closed >= 0.49)).tolist() and 20 < found.good.sum() < 236
+    bars = tornado(Lever(), 2.0 * at("ram.bore") + most(distance("A", "B")), {"ram.bore": 3 * mm}, S=S)
+    assert_allclose([(bar.low, bar.high) for bar in bars], [(-6 * mm, 6 * mm)], rtol=1e-9)
 
 
 def test_measures_are_taken_over_the_strokes_looked_at():

@@ -253,7 +253,11 @@ def composed(
         known_name("Column", name, names, where=f"limits of {machine.plan.title}")
         limit_of(given, names[name].unit)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
-    look_ahead(subject)
+    # Answer the questions of verdicts, members and drives in one pass for their sections, which report refusals themselves.
+    with unwarned(), suppress(LinkageError):
+        members = [question for name, column in subject.member_columns for question in column_questions(subject, name, column)]
+        drives = [end(request) for _, request, _ in drives_asked(subject) for end in (least, most)] if has_loads(subject.machine) else []
+        subject.judge.answers([*verdict_questions(subject.verdict_judge), *members, *drives])
     found = calculated(machine, subject.pose, start, subject.run.case)
     verdicts, mark, judged, broken = verdict_section(subject, bounds)
     sections = (
@@ -276,14 +280,6 @@ def composed(
     words = cited_numbers(plain_words(translated(own_paragraphs(type(machine))[0])))
     facts = tuple((name, set_in_type(text)) for name, text in title_rows(subject, title_block, mark, broken))
     return Document(machine.plan.heading, words, block, facts, mark, whole, current_language())
-
-
-def look_ahead(subject: ReportSubject) -> None:
-    """Answer the questions of verdicts, members and drives in one pass for their sections, which report refusals themselves."""
-    with unwarned(), suppress(LinkageError):
-        members = [question for name, column in subject.member_columns for question in column_questions(subject, name, column)]
-        drives = [end(request) for _, request, _ in drives_asked(subject) for end in (least, most)] if has_loads(subject.machine) else []
-        subject.judge.answers([*verdict_questions(subject.verdict_judge), *members, *drives])
 
 
 def own_system(machine: object) -> str | None:

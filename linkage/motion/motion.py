@@ -1024,22 +1024,19 @@ class Motion(Shown):
     def _refused_near(self, what: Request, words: str, are_places: bool = False) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked."""
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
-        near = self._guards(what).reshape(self.shape) & self.reached
-        if near.any():
-            found = self._near(what, near)
-            refused[near], doubtful[near] = found.refused, found.doubtful
-            self._report(words, refused, doubtful, lambda mask: found.masked(mask[near]), are_places)
-        return refused
-
-    def _guards(self, what: Request) -> Mask:
-        """Return the mask (m, n) of poses where a request is looked at closely; ratios of all points come in one pass, kept."""
+        # The mask (m, n) of poses where a request is looked at closely; ratios of all points come in one pass, kept.
         plan, place, asked = self.plan, 0, tuple[Request, ...]((what,))
         if isinstance(what, Value) and what.along and what.member.name in plan.moving:
             asked = tuple(Value(plan.points[name], what.along) for name in plan.moving)
             place = plan.moving.index(what.member.name)
         key, every = ("guards", *(each.key for each in asked)), range(len(asked))
         unplaced, _, close, _ = self._once(key, lambda: guard_masks(plan, asked, self._grid.flat, self._grid.size, every))
-        return np.asarray(unplaced | close[place])
+        near = np.asarray(unplaced | close[place]).reshape(self.shape) & self.reached
+        if near.any():
+            found = self._near(what, near)
+            refused[near], doubtful[near] = found.refused, found.doubtful
+            self._report(words, refused, doubtful, lambda mask: found.masked(mask[near]), are_places)
+        return refused
 
     def _near(self, what: Request, mask: Mask) -> Conditioning:
         """Return how far some poses are from singular ones for a result."""

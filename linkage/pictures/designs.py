@@ -71,7 +71,11 @@ def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str],
                 drawing.label_points([scene.at(pose)], [each[np.isfinite(each).all(axis=1)] for each in covered])
             drawing.update(pose)
             if look.tint:
-                let_through(drawing)
+                # Let a drawing's faces be seen through, so that others under it show.
+                for artist in drawing.artists:
+                    if isinstance(artist, Polygon) and artist.get_fill():
+                        artist.set_alpha(None)
+                        artist.set_facecolor((*to_rgb(artist.get_facecolor()), 0.12))
             if pose == scene.reached[-1] and (design == len(looks) - 1 or grounds_of(scene) != grounds_of(scenes[-1])):
                 drawing.look = FAINT if look is FAINT else STRONG
                 drawing.ground()
@@ -86,14 +90,6 @@ def draw_designs(machines: Sequence[Mechanism], at: object, path: Sequence[str],
     lost = [text for text, scene in zip(texts, scenes, strict=True) if not scene.reached]
     sheet_note(ax, [said("Cannot be assembled here: {designs}.", designs="; ".join(lost))] if lost else [])
     return figure
-
-
-def let_through(drawing: Drawing) -> None:
-    """Let a drawing's faces be seen through, so that others under it show."""
-    for artist in drawing.artists:
-        if isinstance(artist, Polygon) and artist.get_fill():
-            artist.set_alpha(None)
-            artist.set_facecolor((*to_rgb(artist.get_facecolor()), 0.12))
 
 
 def grounds_of(scene: Scene) -> list[list[float]]:

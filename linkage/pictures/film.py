@@ -189,7 +189,15 @@ class Stage:
         for artist in self._moving:
             artist.set_animated(True)
         self.canvas.draw()
-        self._fit_place()
+        # Leave out the last strokes of a place that would run into the title; the axes say where they go.
+        renderer = self.canvas.get_renderer()
+        end = self.title.get_window_extent(renderer).x1 + TITLE_GAP
+        has_time = self.playback.motion.time is not None
+        for shown in range(len(self.moving), -has_time, -1):
+            self.moving = self.moving[:shown]
+            self.stroke.set_text(max((self._place(pose) for pose in range(len(self.playback.column.drawn))), key=len))
+            if self.stroke.get_window_extent(renderer).x0 > end:
+                break
         self.still: object = self.canvas.copy_from_bbox(self.figure.bbox)
         names = [artist for artist in self.drawing.artists if isinstance(artist, Annotation)]
         self.stamps: dict[Artist, Stamp] = {name: Stamp(name, self.canvas) for name in names}
@@ -207,17 +215,6 @@ class Stage:
         strokes = (stroke_words(motion.plan, name, float(motion.strokes[name][pose]), fixed=True) for name in self.moving)
         time = [] if motion.time is None else [f"{motion.time[pose]:.2f} {translated('s')}"]
         return ", ".join([*time, *strokes])
-
-    def _fit_place(self) -> None:
-        """Leave out the last strokes of a place that would run into the title; the axes say where they go."""
-        renderer = self.canvas.get_renderer()
-        end = self.title.get_window_extent(renderer).x1 + TITLE_GAP
-        has_time = self.playback.motion.time is not None
-        for shown in range(len(self.moving), -has_time, -1):
-            self.moving = self.moving[:shown]
-            self.stroke.set_text(max((self._place(pose) for pose in range(len(self.playback.column.drawn))), key=len))
-            if self.stroke.get_window_extent(renderer).x0 > end:
-                break
 
     def frame(self, pose: int) -> npt.NDArray[np.uint8]:
         """Return the picture at a pose, shape (height, width, 4): red, green, blue, and a fourth that says nothing."""

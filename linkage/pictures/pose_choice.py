@@ -92,15 +92,8 @@ def most_open(tried: Motion, scene: Scene, dead: FloatArray) -> int:
         allowed = allowed & tried.reached.ravel()
         if allowed.any():
             break
-    open_by = openness(scene) * (np.minimum(nearest / best, 1.0) if 0.0 < best < np.inf else 1.0)
-    return int(np.argmax(np.where(allowed, open_by, -np.inf)))
-
-
-def openness(scene: Scene) -> FloatArray:
-    """Return how open the angles at the joints are at every pose, shape (n,): the sine of the least open one that changes, and of all.
-
-    An angle is between two bodies at a pin that they share, or one of them and the frame or a track.
-    """
+    # How open the angles at the joints are at every pose: the sine of the least open one that changes, and of all. An angle is between
+    # two bodies at a pin that they share, or one of them and the frame or a track.
     at, sines = scene.places | scene.rims, []
     bodies = [*map(set, scene.bodies), *({each.P, each.Q} for each in scene.two_force), set(scene.grounds)]
     bodies += [{rider, track.ends[1]} for track in scene.tracks for rider in track.riders]
@@ -110,4 +103,6 @@ def openness(scene: Scene) -> FloatArray:
         across = np.abs(one[0] * other[1] - one[1] * other[0]) / np.where(long > 0.0, long, np.inf)
         if np.ptp(across[np.isfinite(across)]) > 1e-6:
             sines.append(np.nan_to_num(across))
-    return np.min(sines, axis=0) + 0.3 * np.mean(sines, axis=0) if sines else np.zeros(scene.motion.reached.size)
+    open_by = np.min(sines, axis=0) + 0.3 * np.mean(sines, axis=0) if sines else np.zeros(scene.motion.reached.size)
+    open_by = open_by * (np.minimum(nearest / best, 1.0) if 0.0 < best < np.inf else 1.0)
+    return int(np.argmax(np.where(allowed, open_by, -np.inf)))

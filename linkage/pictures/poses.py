@@ -147,7 +147,14 @@ def draw_strokes(machine: Mechanism, at: object, path: Sequence[str], count: int
         at = poses.at(last)
         laid.draw(ax, whole.size, np.concatenate([*label_free(whole, [at]), surrounding_points(whole, at), *faint, *[paths] * ON_PATH]))
         footnote(figure, laid.sense)
-    write_heading(figure, ax, shown, moving)
+    # Write the title, and which pose is which.
+    scene = Scene(shown)
+    held = [name for name in shown.strokes if name not in moving]
+    write_title(figure, shown.plan.heading, said("at {place}", place=pose_words(shown, 0, held)) if held else "")
+    keys = look_keys([FAINT] * (len(scene.reached) - 1) + [STRONG])
+    texts = [pose_words(shown, pose, moving) for pose in scene.reached]
+    lines, names = ax.get_legend_handles_labels()
+    legend_row(ax, [*keys, *lines], [*texts, *names])
     lost = int(np.count_nonzero(~swept.reached))
     if len(moving) == 1:
         remark(figure, ax, unreached_words(swept, moving[0]))
@@ -195,17 +202,6 @@ def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[Floa
         Drawing(ax, scene, FAINT).update(pose)
         keep_clear = [*keep_clear, cloud(scene, scene.at(pose))[::3]]
     draw_scene(ax, scene, last, [points[np.isfinite(points).all(axis=1)] for points in keep_clear])
-
-
-def write_heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:
-    """Write the title, and which pose is which."""
-    scene = Scene(shown)
-    held = [name for name in shown.strokes if name not in moving]
-    write_title(figure, shown.plan.heading, said("at {place}", place=pose_words(shown, 0, held)) if held else "")
-    keys = look_keys([FAINT] * (len(scene.reached) - 1) + [STRONG])
-    texts = [pose_words(shown, pose, moving) for pose in scene.reached]
-    lines, names = ax.get_legend_handles_labels()
-    legend_row(ax, [*keys, *lines], [*texts, *names])
 
 
 # Paths of points: a dotted curve, an arrow for the direction.

@@ -129,7 +129,15 @@ class DrawingReader:
             joined += edges
         names, bodies = self.in_parts(found)
         alone = [(each, keys) for each, keys in met if len(keys) < 2 and not any(each is edge for edge in joined)]
-        self.tell_gap([corners_of(each) for each, keys in alone if not keys])
+        # Tell the least gap between the ends of two lines that make no outline, where it is so small that it was meant to be none.
+        lines = [corners_of(each) for each, keys in alone if not keys]
+        ends = [(number, end) for number, corners in enumerate(lines) for end in (*corners[:1], *corners[-1:])]
+        limit = MEETS * self.found.size
+        free = [(k, P) for k, P in ends if all(dist(P, Q) > limit for other, Q in ends if other != k)]
+        gaps = ((dist(P, Q), P) for (k, P), (other, Q) in combinations(free, 2) if k != other)
+        gap, (x, y) = min(gaps, default=(inf, (0.0, 0.0)))
+        if gap < GAP * self.found.size:
+            self.found.notes.append(f"An outline is open by {gap:.3g} near ({x:.6g}, {y:.6g}): let its lines meet, and it is a plate.")
         for each, keys in alone:
             kind = {"ARC": "an arc", "ELLIPSE": "an ellipse"}.get(each.dxftype(), f"a {each.dxftype().lower()}")
             self.leave_out(each, kind, f"with {len(keys)} pins")
@@ -187,16 +195,6 @@ class DrawingReader:
     def is_closed(self, corners: Sequence[Place]) -> bool:
         """Return whether a line ends where it begins, as an outline does."""
         return len(corners) > 3 and dist(corners[0], corners[-1]) <= MEETS * self.found.size
-
-    def tell_gap(self, lines: Sequence[Sequence[Place]]) -> None:
-        """Tell the least gap between the ends of two lines that make no outline, where it is so small that it was meant to be none."""
-        ends = [(number, end) for number, corners in enumerate(lines) for end in (*corners[:1], *corners[-1:])]
-        limit = MEETS * self.found.size
-        free = [(k, P) for k, P in ends if all(dist(P, Q) > limit for other, Q in ends if other != k)]
-        gaps = ((dist(P, Q), P) for (k, P), (other, Q) in combinations(free, 2) if k != other)
-        gap, (x, y) = min(gaps, default=(inf, (0.0, 0.0)))
-        if gap < GAP * self.found.size:
-            self.found.notes.append(f"An outline is open by {gap:.3g} near ({x:.6g}, {y:.6g}): let its lines meet, and it is a plate.")
 
     def leave_out(self, entity: Any, kind: str, why: str) -> None:
         """Tell which line is left out and why, and where it ends off each pin."""

@@ -293,11 +293,6 @@ class Climb:
         self.unit, self.centre, self.load, self.worth = start.unit.copy(), start.unit.copy(), load.copy(), load.copy()
         self.room = np.full(len(load), room)
 
-    @property
-    def unfinished(self) -> Index:
-        """The poses at which something is left to look for."""
-        return np.flatnonzero((self.room > LEAST) & (self.load > 0.0) & np.isfinite(self.load))
-
     def step(self, rows: Index) -> None:
         """Look around some of them once."""
         place, order = self.place[rows], self.order[rows]
@@ -633,7 +628,7 @@ class FieldSearch:
         start = PlacePoses(base.place, np.take_along_axis(base.unit, order, axis=1))
         climb = Climb(self.moved, self.many.solved, start, order, load, room)
         for _ in range(looks):
-            rows = climb.unfinished
+            rows = np.flatnonzero((climb.room > LEAST) & (climb.load > 0.0) & np.isfinite(climb.load))
             if rows.size:
                 climb.step(rows)
         unit = np.empty_like(base.unit)

@@ -399,7 +399,17 @@ def design_arm_drive(
     duty, cylinders, rules = duty or DriveDuty(), cylinders or DriveCylinders(), rules or ArmRules()
     one_word("objective", objective, ("weight", "area"))
     one_word("scheme", scheme, tuple(SCHEMES))
-    bounds = bounds_checked(bounds, duty, scheme)
+    # Bounds, by default a scheme's; DefinitionError for those that leave something out or nothing in.
+    machine, own = SCHEMES[scheme]
+    bounds = own if bounds is None else bounds
+    for name in own:
+        ends = bounds.get(name)
+        if ends is None or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
+            raise DefinitionError(f"bounds[{name!r}] = {cited(ends)}: (low, high) is expected, low below high, in SI.")
+    lengths = ("r_2",) if issubclass(machine, DirectArmDrive) else ("r_4", "r_5")
+    least_length = sum(bounds[name][0] for name in lengths)
+    what = f"bounds: {' + '.join(lengths)} is {least_length:.4g} m at the least"
+    ensure(least_length <= duty.l_c, f"{what}, more than the boom, {duty.l_c:.4g} m; lower them.")
     if most_area is not None:
         require_number("most_area", most_area, "a number above zero is expected, in N m rad", above=0.0, kind=None)
     from_on, opens = max(duty.phi_0, duty.psi_0), SCHEMES[scheme][0].opens_by_piston
@@ -429,23 +439,6 @@ def arm_drive(duty: DriveDuty, cylinders: DriveCylinders, rules: ArmRules, bore:
     given = {name: getattr(rules, name) for name in ("eyes", *own)}
     S = min(0.66, 0.9 * cylinders.longest * 0.1) * 10.0 * bore
     return machine(**cylinders.dimensions(bore, rod), **duty.asked_of(machine), **given, S=S)
-
-
-def bounds_checked(
-    given: Mapping[str, tuple[float, float]] | None, duty: DriveDuty, scheme: str
-) -> Mapping[str, tuple[float, float]]:
-    """Return bounds, by default a scheme's; DefinitionError for those that leave something out or nothing in."""
-    machine, own = SCHEMES[scheme]
-    bounds = own if given is None else given
-    for name in own:
-        ends = bounds.get(name)
-        if ends is None or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
-            raise DefinitionError(f"bounds[{name!r}] = {cited(ends)}: (low, high) is expected, low below high, in SI.")
-    lengths = ("r_2",) if issubclass(machine, DirectArmDrive) else ("r_4", "r_5")
-    least_length = sum(bounds[name][0] for name in lengths)
-    what = f"bounds: {' + '.join(lengths)} is {least_length:.4g} m at the least"
-    ensure(least_length <= duty.l_c, f"{what}, more than the boom, {duty.l_c:.4g} m; lower them.")
-    return bounds
 
 
 class Compromise(NamedTuple):

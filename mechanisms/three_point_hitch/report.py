@@ -202,9 +202,16 @@ def rules(hitch: Mechanism, motion: Motion) -> list[Verdict]:
     judge, worst = judge_along(motion), weakest(motion)
     says = said("the ratio is not above zero anywhere: the load is not limited by this cylinder.") if worst is None else worst.sentence
     found = Verdict("capacity", worst is None or worst.capacity >= float(motion.inputs["load.mass"]) * g0, says)
+    low, high = (float(each.value) for each in judge.answers([least("tilt"), most("tilt")]))
+    start = float(np.min(motion.strokes["S"][motion.reached]))
+    text = said(
+        "tilt {low} to {high} over this motion. At S = {start} {words}",
+        low=shown_number(low, "deg", ".2f"), high=show(high, "deg", ".2f"),
+        start=show(start, "mm", ".1f"), words=mast_words(hitch, start),
+    )  # fmt: skip
     return [
         found, limit_verdict(judge), test_verdict(judge), upper_link_verdict(judge, motion), balance_verdict(judge),
-        mast_verdict(judge, hitch, motion),
+        Verdict("mast", True, text),
     ]  # fmt: skip
 
 
@@ -255,18 +262,6 @@ def upper_link_verdict(judge: Judge, motion: Motion) -> Verdict:
         where=with_and([*map(str, below_zero(motion, force))]),
     )  # fmt: skip
     return Verdict("upper link", True, text)
-
-
-def mast_verdict(judge: Judge, hitch: Mechanism, motion: Motion) -> Verdict:
-    """Return the tilt over the motion, and the upper link that makes the mast vertical at its start."""
-    low, high = (float(each.value) for each in judge.answers([least("tilt"), most("tilt")]))
-    start = float(np.min(motion.strokes["S"][motion.reached]))
-    text = said(
-        "tilt {low} to {high} over this motion. At S = {start} {words}",
-        low=shown_number(low, "deg", ".2f"), high=show(high, "deg", ".2f"),
-        start=show(start, "mm", ".1f"), words=mast_words(hitch, start),
-    )  # fmt: skip
-    return Verdict("mast", True, text)
 
 
 def batch_verdict(motion: Motion) -> Verdict:

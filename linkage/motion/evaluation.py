@@ -222,7 +222,7 @@ def watch_of(plan: Plan, requests: Sequence[Request]) -> tuple[Kernel, list[list
     near = list[Node]()
     for each in requests:
         each.nodes(plan)  # directions of its own are noted then
-        near.append(plan.trace.nearness(each.names(plan)) - each.regular)
+        near.append(plan.trace.least_nearness(each.names(plan)) - each.regular)
     every = [*(each.notes(plan).assumed for each in requests), *(each.gaps(plan) for each in requests)]
     every.append(plan.trace.placeable(members_behind(plan, requests)))
     place = {node: row for row, node in enumerate(dict.fromkeys(chain(*every)), len(near))}
@@ -240,10 +240,12 @@ def guard_masks(
     """
     kernel, *rows, placeable = of_all("guards", plan, what, watch_of)
     with np.errstate(invalid="ignore"):
-        above = np.broadcast_to(kernel(inputs, size=size, way=way).values, (len(kernel.plan.outputs), *size)) > 0.0
+        values = np.broadcast_to(kernel(inputs, size=size, way=way).values, (len(kernel.plan.outputs), *size))
+        above = values > 0.0
     unlike, near, empty = np.zeros((3, len(what), *size), bool)
     near[among] = ~above[among]
-    near &= ~keeps_digits(plan, what, inputs, near)
+    none = np.array([-each.regular for each in what])[:, None, None]  # a product of nothing: no look clears what has no place
+    near &= ~keeps_digits(plan, what, inputs, near & (values[: len(what)] > none))
     for mask, own in zip((unlike, empty), rows, strict=True):
         for number in among:
             if own[number]:

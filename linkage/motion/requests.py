@@ -200,8 +200,11 @@ class Request(Arithmetic):
 
     @property
     def regular(self) -> float:
-        """The product of squared parts (Trace.nearness) above which rounding leaves at least nine digits of it."""
-        return NEAR**2 if self.order else PLACES
+        """The product of squared parts (Trace.least_nearness) above which rounding leaves at least eight digits of it.
+
+        A first derivative loses eps over the product, a second one eps over its power of 3 / 2.
+        """
+        return PLACES if not self.order else NEAR**3 if self.order == 1 else NEAR**2
 
     def rounding_nodes(self, plan: Plan) -> tuple[Node, ...]:
         """Return the nodes whose rounding tells its error: its own, and those they are compared with."""

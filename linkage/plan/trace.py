@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Hashable, Mapping, Sequence
 from dataclasses import fields
-from functools import cached_property, reduce
+from functools import cached_property, partial, reduce
 from math import prod
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import DefinitionError
-from ..program import Graph, Level, Node, Tangent
-from ..quantities import Member, Quantity, Tabulated, Turning, of_kind
+from ..program import Graph, Level, Node, Tangent, ancestors
+from ..quantities import Member, Quantity, Stroke, Tabulated, Turning, of_kind
 from ..steps import Arrow, Point
 from ..vectors import Line, Scalar, Vec
 from .reading import ArrayReading, Reading
@@ -48,6 +48,12 @@ class Nearness(NamedTuple):
     above: tuple[Node, Node]
     """Two nodes, the second above zero: `node` exceeds a number where the first exceeds so many times the second."""
 
+    @property
+    def base(self) -> Node:
+        """What is behind all that is built on it: the radicand, the sine or the distance, or its square."""
+        first = self.above[0].origin
+        return first.args[0].origin if first.op == "multiply" and first.args[0] is first.args[-1] else first
+
 
 class Loop(NamedTuple):
     """A loop that places a step: links that must meet, guides that must cross, a length that must be positive, a direction.
@@ -76,6 +82,7 @@ class Trace(Reading):
         self.cache: dict[object, object] = {}
         self.is_sizing = False
         self._tangents: dict[Hashable, Tangent] = {}
+        self._least: dict[tuple[Nearness, ...], Node] = {}
 
     def components(self, vector: Vec) -> tuple[Node, Node]:
         """Return the nodes of both components of a vector or a place."""
@@ -107,7 +114,7 @@ class Trace(Reading):
         """Return this trace on a forked graph: new nodes do not change this one, and its own are known there."""
         fork = self.view()
         fork.graph = self.graph.fork()
-        fork.cache, fork._tangents = {}, {}
+        fork.cache, fork._tangents, fork._least = {}, {}, {}
         for name in ("guards", "measures", "loops", "angles", "positions", "noted", "directions", "inputs", "_values", "extent"):
             if name in vars(self):
                 vars(fork)[name] = in_fork(vars(self)[name], fork.graph.nodes)
@@ -200,19 +207,50 @@ class Trace(Reading):
     @cached_property
     def away(self) -> Node:
         """A node above zero where the fixed points are near enough to the origin."""
+        return self.graph.node(self.extent * AWAY**2 - self.farthest)
+
+    @cached_property
+    def farthest(self) -> Scalar:
+        """The greatest square of a coordinate of fixed points [m2]."""
         places = [self.at(name) for name, point in of_kind(self.members, Point).items() if point.is_fixed]
-        coordinates = [part for place in places for part in (place.x, place.y)]
-        return self.graph.node(self.extent * AWAY**2 - reduce(np.maximum, (part * part for part in coordinates), 0.0))
+        return reduce(np.maximum, (part * part for place in places for part in (place.x, place.y)), 0.0)
+
+    @cached_property
+    def far(self) -> Node:
+        """How many times the machine's size its fixed points are away from the origin, 1 at least."""
+        return self.graph.node(np.sqrt(np.maximum(self.farthest / self.extent, 1.0)))
 
     def nearness(self, names: Container[str], *, exact: bool = False) -> Node:
         """Return the product of the distances of some members from singular poses, each at most 1."""
         parts = (measure.exact if exact else measure.node for measure in self._measures_of(names))
         return prod((self.graph.apply("minimum", part, 1.0) for part in parts), start=self.graph.constant(1.0))
 
+    def least_nearness(self, names: Container[str]) -> Node:
+        """Return the least product of such distances that build on one another, over how many times the size the machine is away.
+
+        Of parts that do not build on one another errors add and do not multiply. What is built on places that are found by iteration
+        counts as built on all before it.
+        """
+        measures, lesser = tuple(self._measures_of(names)), partial(self.graph.apply, "minimum")
+        if measures not in self._least:
+            behind, products = list[set[int]](), list[Node]()
+            for measure in measures:
+                made_of = set(ancestors([measure.node]))
+                poses = {node.value for node in made_of if node.op == "input" and node.level is Level.POSE}
+                all_before = not poses <= of_kind(self.members, Stroke).keys()
+                before = [k for k, each in enumerate(measures[: len(behind)]) if all_before or each.base in made_of]
+                last = [products[k] for k in before if not any(k in behind[each] for each in before)]
+                products.append(lesser(measure.node, 1.0) * reduce(lesser, last, self.graph.one))
+                behind.append({*before}.union(*(behind[k] for k in before)))
+            ends = [product for k, product in enumerate(products) if not any(k in each for each in behind)]
+            found = reduce(lesser, ends, self.graph.one)
+            self._least[measures] = found if found.op == "constant" else found / self.far
+        return self._least[measures]
+
     def least_part(self, names: Container[str]) -> Node:
         """Return the least of the distances of some members from singular poses, at most 1."""
         parts = [measure.exact for measure in self._measures_of(names)]
-        return reduce(lambda a, b: self.graph.apply("minimum", a, b), parts, self.graph.one)
+        return reduce(partial(self.graph.apply, "minimum"), parts, self.graph.one)
 
     def _measures_of(self, names: Container[str]) -> list[Nearness]:
         return [measure for measure in self.measures if measure.member in names or not measure.member]
@@ -221,8 +259,9 @@ class Trace(Reading):
         """Return the nodes that are above zero where some members can be worked out, far from every singular pose."""
         parts = [measure.above for measure in self._measures_of(names)]
         is_single = len(parts) == 1 and near > 0.0  # the bounds of 0 and 1 tell nothing of it
-        first, second = parts[0] if is_single else (self.nearness(names), self.graph.one)
-        return [*self.placeable(names), *([] if first.op == "constant" else [first - near * second])]
+        first, second = parts[0] if is_single else (self.least_nearness(names), self.graph.one)
+        least = near * self.far if is_single else near
+        return [*self.placeable(names), *([] if first.op == "constant" else [first - least * second])]
 
     def placeable(self, names: Container[str]) -> list[Node]:
         """Return the nodes that are above zero where some members can be worked out, with fixed points near enough to the origin."""

@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 
 from ..errors import DefinitionError, UntracedError, cited, known_name
-from ..frozen import record
+from ..frozen import FrozenDict, record
 from ..language import said
 from ..loads import AS_IT_RUNS, PLAIN, Acting, Case, Loads, TwoPoint, case_in_words, situation_of
 from ..motion import Judge, Motion, drive_kind, most, require_motion
@@ -153,7 +153,7 @@ class JointPart:
         what = {"size": "the size of the force", "couple": "the couple"}.get(self.component, f"the {self.component} component of the force")
         every, shared = frozenset(motion.plan.members), ("pin forces", acts)
         trace = partial(full.traced_part, request.situation, shared)
-        return LawInPlan(("pin force", full, acts), every, every, trace, shared, f"{what} at {joint}")
+        return LawInPlan(("pin force", full, acts), every, FrozenDict(dict.fromkeys(every, 2)), trace, shared, f"{what} at {joint}")
 
     def traced_part(self, acting: Acting, shared: Hashable, motion: TracedMotion) -> tuple[TracedMotion, Node]:
         """Return it on a program, on which all joint forces are traced once for all that are asked for: they are kept as `shared`."""

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, ensure, is_listed, unwarned
-from ..frozen import immutable
+from ..frozen import FrozenDict, immutable
 from ..language import said
 from ..loads import DIRECTIONS, PLAIN, Acting, ForceElement, LinkMass, Load, LoadCase, Push, Rate, Rates, StrokeRates, Weight
 from ..motion import Judge, Motion, OnePose, Request, SmoothPiece, require_motion
@@ -37,14 +37,15 @@ from .solution import Equilibrium, held_in_case, refuse_loose, structure_of
 Made = TypeVar("Made")
 
 
-Told: TypeAlias = tuple[set[str], set[str], dict[Node, str], dict[Node, str], dict[Node, str]]
+Told: TypeAlias = tuple[set[str], dict[str, int], dict[Node, str], dict[Node, str], dict[Node, str]]
 """What a law has read, gone through, assumed, switched at and left open."""
 
 
 class TracedMotion(OnePose):
     """One pose that stands for all of them. A number of it is Traced, a vector an array (2,) of such; both pass as arrays of floats.
 
-    `read` are the members that have been asked for, `through` those that ratios were taken of, `notes` what has been assumed of them.
+    `read` are the members that have been asked for, `through` those that ratios were taken of, with the highest order, `notes` what has
+    been assumed of them.
     """
 
     shape: tuple[int, ...] = ()
@@ -56,7 +57,7 @@ class TracedMotion(OnePose):
         self.plan, self._reading, self._placed = plan, trace, trace
         self.notes = Notes()
         self.read: set[str] = set()
-        self.through: set[str] = set()
+        self.through: dict[str, int] = {}
 
     def _refused(self, what: Request, words: str) -> Mask:
         """Return that no pose is refused: a program's poses are examined where its values are asked for."""
@@ -69,7 +70,7 @@ class TracedMotion(OnePose):
         kept, notes, key = self._reading.cache, self.notes, ("shared", self.plan, key)
         if key not in kept:
             before, owner = self._told, notes.owner
-            self._told, notes.owner = (set(), set(), {}, {}, {}), ""
+            self._told, notes.owner = (set(), {}, {}, {}, {}), ""
             try:
                 made = make()
             finally:
@@ -78,11 +79,15 @@ class TracedMotion(OnePose):
             kept[key] = made, told, last
         made, told, last = cast("tuple[Made, Told, str]", kept[key])
         self.read |= told[0]
-        self.through |= told[1]
+        self._differentiated(told[1])
         for mine, more in zip(self._told[2:], told[2:], strict=True):
             mine.update({node: name or notes.owner for node, name in more.items()})
         notes.owner = last or notes.owner
         return cast(Made, self._own(made))
+
+    def _differentiated(self, through: Mapping[str, int]) -> None:
+        """Note members that ratios are taken of, with their orders."""
+        self.through |= {name: max(order, self.through.get(name, 0)) for name, order in through.items()}
 
     @property
     def _told(self) -> Told:
@@ -127,7 +132,7 @@ class TracedMotion(OnePose):
         return self._by_time(target, rates, accelerations, 2)
 
     def _by_time(self, target: Reference, rates: Mapping[str, Rate], accelerations: Mapping[str, Rate], order: int) -> FloatArray:
-        self.through |= self.plan.reaches(name_of(target, is_needed=False) or target)
+        self._differentiated(dict.fromkeys(self.plan.reaches(name_of(target, is_needed=False) or target), order))
         moving, driven = ({name: self.node(each) for name, each in given.items()} for given in (rates, accelerations))
         places = nodes = [self.node(each) for each in self._nodes(target)]
         for _ in range(order):
@@ -240,7 +245,7 @@ class TracedMotion(OnePose):
     def ratio(self, target: Reference, *, wrt: str | None = None, order: int = 1) -> FloatArray:
         """Return the derivative of a point, a vector or a quantity by a stroke, of `order` 1 or 2."""
         stroke = stroke_of(self.plan, wrt)
-        self.through |= self.plan.reaches(name_of(target, is_needed=False) or target)
+        self._differentiated(dict.fromkeys(self.plan.reaches(name_of(target, is_needed=False) or target), order_of(order)))
         nodes = tuple(self.node(each) for each in self._nodes(target))
         for _ in range(order_of(order)):
             nodes = tuple(self._reading.tangent(stroke).derivative(node) for node in nodes)
@@ -344,7 +349,7 @@ TracedLaw: TypeAlias = tuple[TracedMotion, Node]
 
 @immutable
 class LawInPlan:
-    """A formula in a plan: its key, the members that it reads, and those it is differentiated through.
+    """A formula in a plan: its key, the members that it reads, and those it is differentiated through, with the highest order.
 
     `trace` gives it on a traced motion of the plan, `traced_with` tells the formulas that are traced in one with it, None where it has been
     traced to know this, `sentence` what it is of there.
@@ -352,7 +357,7 @@ class LawInPlan:
 
     key: Hashable
     read: frozenset[str]
-    through: frozenset[str]
+    through: Mapping[str, int]
     trace: Callable[[TracedMotion], TracedLaw]
     traced_with: Hashable = None
     sentence: str = ""
@@ -364,7 +369,7 @@ def law_in_plan(motion: TracedMotion, trace: Callable[[TracedMotion], TracedLaw]
     notes = traced.notes
     key = "law", motion._reading.graph, node.number, *notes.assumed, None, *notes.switches, None, *notes.gaps
     motion._reading.cache.setdefault(key, (traced, node))
-    return LawInPlan(key, frozenset(motion.read), frozenset(motion.through), trace, sentence=sentence)
+    return LawInPlan(key, frozenset(motion.read), FrozenDict(motion.through), trace, sentence=sentence)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -527,7 +532,7 @@ class LawRequest(Request):
 
     @property
     def order(self) -> int:
-        return 1 if self.in_plan is not None and self.in_plan.through else 0
+        return 0 if self.in_plan is None else max(self.in_plan.through.values(), default=0)
 
     def refuse(self, motion: MotionLike) -> None:
         self.of(motion)

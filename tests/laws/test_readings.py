@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
+from linkage import RIGHT, Dyad, Ground, Mechanism, Stroke
 from linkage.errors import AssemblyError
 from linkage.plan import REGULAR
 from linkage.program import Kernel, interpret
@@ -100,6 +101,33 @@ def test_a_loop_is_never_told_nearer_to_a_singular_pose_by_its_square_than_by_it
     for bound, exact, above, size in found.reshape(-1, 4, 400)[:, :, np.isfinite(found).all(axis=0)]:
         assert_allclose(bound, np.maximum(above, 0.0) / size, rtol=1e-12)
         assert np.all(bound <= exact * (1 + 1e-12)) and np.all(exact * REGULAR**2 <= 1 + 1e-12) and exact.max(initial=1.0) > 1e-3
+
+
+@ALL
+def test_only_parts_that_build_on_one_another_multiply_what_is_lost(machine):
+    """The least product of parts is not less than that of all, not more than the least of them, and smaller far from the origin."""
+    given, trace, names = inputs(machine, 1, 400), machine.plan.trace, machine.plan.members
+    nodes = [trace.nearness(names), trace.least_nearness(names), trace.far, *(each.node for each in trace.measures)]
+    with np.errstate(all="ignore"):
+        product, least, far, *parts = table(interpret(nodes, given), (400,))
+    reached, far = np.isfinite(product), far if parts else np.ones(400)
+    single = np.min(np.minimum(parts, 1.0), axis=0, initial=1.0)
+    assert np.all(far >= 1.0) and np.all(((least * far >= product * (1 - 1e-12)) & (least * far <= single * (1 + 1e-12)))[reached])
+
+
+def test_levers_side_by_side_lose_apart_and_in_a_row_together():
+    class Levers(Mechanism):
+        a, b = Stroke(0.5, 0.9), Stroke(0.5, 0.9)
+        O, A, Q, C = Ground(0.0, 0.0), Ground(0.0, -0.8), Ground(2.0, 0.0), Ground(2.0, -0.8)
+        B = Dyad(A, O, AB=a, OB=0.3, side=RIGHT)
+        D = Dyad(C, Q, CD=b, QD=0.3, side=RIGHT)
+        E = Dyad(B, O, BE=0.25, OE=0.4, side=RIGHT)
+
+    trace, given = Levers.plan.trace, {**Levers.plan.defaults, "a": 0.53, "b": 0.52}
+    b, d, e = (float(interpret([trace.least_nearness({name})], given)[0]) for name in "BDE")
+    together = [float(interpret([trace.least_nearness(names)], given)[0]) for names in ("BD", "BE", "BDE")]
+    assert max(b, d, e) < 1.0
+    assert_allclose(together, [min(b, d), b * e, min(b * e, d)], rtol=1e-12)
 
 
 @pytest.mark.slow

@@ -454,17 +454,19 @@ class Structure:
         """Return the sets of strokes which more joints and lengths follow than cylinders take over of them.
 
         These keep their drives, as geared cranks do: what they give together does no work on a stroke that is taken over. Cranks of one
-        stroke, or a rack beside a body, only where `is_geared`.
+        stroke, or a rack beside a body, only where `is_geared`. What lines of oil give is none of them.
         """
         plan, taken, groups = self.plan, self.holders.strokes_taken, list[list[frozenset[str]]]()
-        joints = [(each, frozenset(names)) for each in plan.joints for names in self.followed(each[1])[0].values()]
-        lengths = [frozenset(name for name in plan.strokes if name in plan.reaches(bar.length)) for bar in plan.cylinders]
+        found = [(each, *self.followed(each[1])) for each in plan.joints]
+        joints = [(each, frozenset(names)) for each, strokes, given in found for letter, names in strokes.items() if letter not in given]
+        reaches = [plan.reaches(bar.length) for bar in plan.cylinders]
+        lengths = [frozenset({*plan.strokes} & each) for each in reaches if not self.holders.line_quantities & each]
         for names in [names for names in (*(names for _, names in joints), *lengths) if names & taken]:
             near = [group for group in groups if names & taken & frozenset().union(*group)]
             groups = [*(group for group in groups if group not in near), [names, *chain(*near)]]
         sizes = [(group, frozenset[str]().union(*group)) for group in groups]
-        found = [group for group, strokes in sizes if len(group) > len(strokes & taken) and (is_geared or strokes - taken)]
-        shared = set(chain(*found))
+        more = [group for group, strokes in sizes if len(group) > len(strokes & taken) and (is_geared or strokes - taken)]
+        shared = set(chain(*more))
         if is_geared:
             shared |= {names for (name, joint), names in joints if names & taken and any(geared_to(plan, joint, name))}
             driven = [bar.length for bar in plan.cylinders] + [drive.quantity for _, joint in plan.joints for drive in joint.drives]

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..frozen import FrozenDict, record
 from ..language import said
-from ..loads import AS_IT_RUNS, PLAIN, Acting, Case, Loads, TwoPoint, case_in_words, situation_of
+from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, Acting, Case, Loads, TwoPoint, case_in_words, situation_of
 from ..motion import Judge, Motion, drive_kind, most, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -26,7 +26,7 @@ from .joints import Contact, Structure
 from .law_requests import LawInPlan, LawRequest, TracedMotion, eliminated_forces, law_in_plan, once_in, request_text, situation_identity
 from .poses import AnyMotion, FlatPoses
 from .solution import Solution, assumed_joints, held_fault, held_in_case, structure_of
-from .work import by_work, stroke_force, without_held
+from .work import by_work, member_thrust, stroke_force, without_held
 
 
 def force_request(
@@ -281,6 +281,25 @@ LEAST = 1e-3
 """N or Nm: less than this is no force of a drive."""
 
 
+def own_drive_force(plan: Plan, drive: str, case: Case) -> LawRequest:
+    """Return the request for what is left to the drive of a stroke that no cylinder holds, beside the cylinders that push on it.
+
+    With friction it is that at rest.
+    """
+    asked, in_case = drive_force(drive, case=case), plan_in_case(plan, Acting(case=case))
+    if not any(drive in plan.reaches(*each.ends) for each in holders_of(in_case).every_cylinder):
+        return asked
+
+    def formula(motion: AnyMotion, acting: Acting) -> FloatArray:
+        found = asked.formula(motion, acting)
+        for each in holders_of(motion.plan).every_cylinder:
+            if drive in motion.plan.reaches(*each.ends):
+                found = found - member_thrust(motion, each, acting) * each.growth(motion, {drive: 1.0})
+        return found
+
+    return replace(asked, formula=formula, known=("own drive", asked.known), directions=(FRICTIONLESS,))
+
+
 def drive_remarks(judge: Judge) -> list[Remark]:
     """Return the forces of drives of strokes that no cylinder holds, of one design of a machine with cylinders.
 
@@ -297,7 +316,7 @@ def drive_remarks(judge: Judge) -> list[Remark]:
             held[case].update(tie.run.strokes if tie.run is not None else (), in_case.reaches(tie.added) if tie.added is not None else ())
     loose = {name: [case for case, strokes in held.items() if name not in strokes] for name in plan.strokes}
     asked = [(name, case) for name, cases in loose.items() for case in (cases if len(cases) < len(held) else [""])]
-    answers = judge.lost_allowed().answers([most(abs(drive_force(name, case=case or None))) for name, case in asked]) if asked else []
+    answers = judge.lost_allowed().answers([most(abs(own_drive_force(plan, name, case or None))) for name, case in asked]) if asked else []
     found: dict[str, tuple[float, Remark]] = {}
     for (name, case), answer in zip(asked, answers, strict=True):
         size = float(answer.value)

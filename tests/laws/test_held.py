@@ -384,6 +384,30 @@ def test_strokes_that_no_cylinder_holds_are_named_with_the_force_of_their_drive(
     assert bool(remark) and remark.ok is None
 
 
+@first_daily(2, "seed", range(8))
+def test_the_drive_of_a_stroke_carries_the_cylinder_that_pushes_on_it(seed):
+    """A ram from the frame to the tip of an arm that a drive stretches: by hand the drive gives Q_t - T dl/dt."""
+    foot = np.random.default_rng(seed).uniform([0.2, -1.2], [0.5, -0.8])
+
+    class Arm(Mechanism):
+        phi, t = Stroke(-0.7, 1.2), Stroke(0.0, 1.0)
+        O, K = Ground(0.0, 0.0), Ground(*foot)
+        P = Crank(O, OP=0.5, angle=phi)
+        T = OnLink(O, P, OT=1.0 + t)
+        load = Weight(T, mass=50.0)
+        ram = Cylinder(K, T, bore=63 * mm, rod=36 * mm, works="both")
+        pump = LiftCircuit(ram, pressure=250 * bar)
+
+    phi, t = np.meshgrid(np.linspace(-0.7, 1.2, 401), np.linspace(0.0, 1.0, 101))
+    x, y = (1.0 + t) * np.cos(phi), (1.0 + t) * np.sin(phi)
+    length, g = np.hypot(x - foot[0], y - foot[1]), 50.0 * 9.80665
+    push = g * x * length / ((y - foot[1]) * x - (x - foot[0]) * y)
+    needed = g * np.sin(phi) - push * ((x - foot[0]) * np.cos(phi) + (y - foot[1]) * np.sin(phi)) / length
+    (remark,) = unheld(Arm)
+    found = float(remark.partition("up to ")[2].partition(" kN")[0])
+    assert found == pytest.approx(np.abs(needed).max() / 1e3, rel=2e-3)
+
+
 class Legs(Mechanism):
     """A frame on two legs that share one closed line: it keeps its height in the middle and rolls freely."""
 

@@ -325,7 +325,9 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray) -> N
     ax.apply_aspect()
     inside = ax.get_window_extent(renderer).padded(-EDGE)
     boxes = [np.array(each.extents) for each in text_boxes(ax)]
-    led = written_leaders(ax)
+    # The lines that lead from names to their points [pixels], where `text_boxes` has brought them.
+    named = [each for each in ax.texts if isinstance(each, Annotation) and each.get_visible() and each.get_text()]
+    led = [np.asarray(each.arrow_patch.get_path().vertices, float)[[0, -1]] for each in named if each.arrow_patch]
     points = ax.transData.transform(covered) if covered.size else np.empty((0, 2))
     points = np.concatenate([points, *(start + ALONG_LEADER * (end - start) for start, end in led)])
     chosen: list[PlacedWording] = []
@@ -370,12 +372,6 @@ def text_boxes(ax: Axes) -> list[Bbox]:
             text.update_positions(renderer)
             text.update_bbox_position_size(renderer)  # at which its line begins
     return [Text.get_window_extent(text, renderer) for text in written]
-
-
-def written_leaders(ax: Axes) -> list[FloatArray]:
-    """Return the lines that lead from names to their points, shape (2, 2) each [pixels], once `text_boxes` has brought them there."""
-    led = [each for each in ax.texts if isinstance(each, Annotation) and each.get_visible() and each.get_text()]
-    return [np.asarray(each.arrow_patch.get_path().vertices, float)[[0, -1]] for each in led if each.arrow_patch]
 
 
 # The bar that says the scale, and what colours mean.

@@ -354,7 +354,9 @@ def signs(units: set[str]) -> dict[str, str]:
 def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
     """Return the dimensions that anything on the page hangs on."""
     size = float(np.hypot(*np.diff(np.reshape(requests.scene.extent, (2, 2)), axis=1).ravel()))
-    found, made = [], made_sizes(requests.plan)
+    found, spellings = [], requests.plan.table.spellings
+    sized = ((each.variable(name), each.sizes_made(name)) for each in requests.plan.of_kind(ForceElement).values() for name in each.numbers)
+    made = {spellings[name][0]: sizes for name, sizes in sized if sizes and name in spellings}  # such as the bores of a standard
     for name in live.dimensions:
         entry, value = requests.plan.table.entries[name], float(requests.machine.dimensions[name])
         measure = plan_measure(requests.plan, name)
@@ -373,12 +375,6 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
         row = [name, value, ends, unit_typeset(unit), int(entry.kind == "length"), where, sizes]
         found.append(row[: 7 if sizes else 6 if where else 5])
     return found
-
-
-def made_sizes(plan: Plan) -> dict[str, Sequence[float]]:
-    """Return the sizes that dimensions are made in, such as the bores of a standard, by the names of the dimensions [SI]."""
-    given = ((each.variable(name), each.sizes_made(name)) for each in plan.of_kind(ForceElement).values() for name in each.numbers)
-    return {plan.table.spellings[name][0]: sizes for name, sizes in given if sizes and name in plan.table.spellings}
 
 
 def four_digits(value: float) -> float:

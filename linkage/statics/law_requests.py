@@ -272,7 +272,12 @@ def eliminated_forces(
         if run.back:
             what = f"the forces between bodies hang on which of {name} and {run.back} pulls, pose by pose"
             raise UntracedError(f"{plan.title}: {what}: there are values, and no program that gives derivatives.")
-    sampled = sampled_poses(plan)
+    along = np.linspace(0.0, 1.0, POSES)
+    ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
+    with unwarned():  # the sketch and some poses over the strokes
+        strokes = {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}
+        sampled = Motion(plan, plan.defaults, strokes, "nan")
+    ensure(sampled.reached.any(), f"{plan.title}: the declared design cannot be assembled at any of {POSES} poses; declare one that can.")
     places = over_sampled([motion.node(part) for point in plan.points for part in motion._nodes(point)], sampled)
     size = max((float(np.ptp(rows)) for rows in (places[0::2], places[1::2]) if rows.size), default=0.0)
     # About half the extent [m], as a power of two, which divides without rounding: two designs have the same forces to the last bit.
@@ -322,16 +327,6 @@ def elimination(system: System, motion: TracedMotion, sizes: Sequence[Node], sen
         rest = [motion.node(each) * size for each, size in zip(form.friction[0], sizes, strict=True)]
         right.append(sum((-each for each in rest), motion.node((value - form.rest)[0])))
     return SparseSystem([{place: each for place, each in row.items() if not is_zero(each)} for row in rows], right, scaled=True)
-
-
-def sampled_poses(plan: Plan) -> Motion:
-    """Return the sketch and some poses over the strokes; DefinitionError where none of them can be assembled."""
-    along = np.linspace(0.0, 1.0, POSES)
-    ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
-    with unwarned():
-        found = Motion(plan, plan.defaults, {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}, "nan")
-    ensure(found.reached.any(), f"{plan.title}: the declared design cannot be assembled at any of {POSES} poses; declare one that can.")
-    return found
 
 
 def over_sampled(nodes: Sequence[Node], sampled: Motion) -> FloatArray:

@@ -102,14 +102,20 @@ def standing_of(motion: AnyMotion, acting: Acting, supports: Mapping[str, Suppor
     motion = held_in_case(motion, acting)
     poses = FlatPoses(motion, "The axle loads", set())
     applied = applied_loads(motion, acting, rates_in(motion, acting))
-    first, right = next(iter(supports.values())), to_the_right(poses, supports)
-    start, force, moment = poses.at(name_of(first.point)), poses.zeros(2).T, poses.zeros()
+    first, right = next(iter(supports)), to_the_right(poses, supports)
+    start, force, moment = poses.at(name_of(supports[first].point)), poses.zeros(2).T, poses.zeros()
     for load in applied.loads:
         if load.element not in supports:
             own = poses.flattened(load.force)
             force, moment = force + own, moment + cross(poses.at(name_of(load.point)) - start, own)
     ways = {name: push_of(poses, each) for name, each in supports.items()}
-    balance = balance_of(poses, supports, ways, part_along(ways[next(iter(supports))], force), np.asarray(moment))
+    across = {name: part_along(way, ways[first]) for name, way in ways.items()}
+    for name, part in across.items():
+        if part.dtype != object and not np.all(part > 0.0):
+            what = f"{poses.plan.title}: {name} pushes {supports[name].direction}, not to the side of {first}, {supports[first].direction}"
+            raise DefinitionError(f"{what}; supports of a vehicle push to one side, such as (0, 1).", member=name)
+    levers = [cross(poses.at(name_of(each.point)) - start, ways[name]) for name, each in supports.items()]
+    balance = Balance(part_along(ways[first], force), np.asarray(moment), [*across.values()], levers)
     ends: list[FloatArray | None]
     if len(supports) == 2:
         ends = [*balance.by_two(0, 1)]
@@ -266,21 +272,6 @@ def to_the_right(poses: FlatPoses, supports: Mapping[str, Support]) -> FloatArra
 def part_along(a: FloatArray, b: FloatArray) -> FloatArray:
     """Return the product of two vectors (2, n), shape (n,)."""
     return np.asarray(a[0] * b[0] + a[1] * b[1])
-
-
-def balance_of(
-    poses: FlatPoses, supports: Mapping[str, Support], ways: Mapping[str, FloatArray], force: FloatArray, moment: FloatArray
-) -> Balance:
-    """Return the balance of a frame under a force and a moment at the first support, with the supports in their directions."""
-    first = next(iter(supports))
-    start = poses.at(name_of(supports[first].point))
-    across = {name: part_along(way, ways[first]) for name, way in ways.items()}
-    for name, part in across.items():
-        if part.dtype != object and not np.all(part > 0.0):
-            what = f"{poses.plan.title}: {name} pushes {supports[name].direction}, not to the side of {first}, {supports[first].direction}"
-            raise DefinitionError(f"{what}; supports of a vehicle push to one side, such as (0, 1).", member=name)
-    levers = [cross(poses.at(name_of(each.point)) - start, ways[name]) for name, each in supports.items()]
-    return Balance(force, moment, [*across.values()], levers)
 
 
 def by_stiffness(poses: FlatPoses, supports: Mapping[str, Support], balance: Balance) -> tuple[FloatArray, list[FloatArray | None]]:

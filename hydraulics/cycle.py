@@ -19,7 +19,7 @@ from linkage import DefinitionError, Verdict
 from linkage.disk import replacing_text
 from linkage.frozen import FrozenDict, immutable, read_only, record
 from linkage.language import said
-from linkage.loads import PLAIN_CASE, Acting, ForceElement
+from linkage.loads import PLAIN_CASE, Acting, ForceElement, case_titles
 from linkage.motion import Instants, Judge, Motion, from_above
 from linkage.motion.grid import recalled
 from linkage.numeric import last_holding
@@ -335,7 +335,7 @@ def cycles_over(pump: ForceElement, place: Any, acting: Acting) -> list[PumpCycl
     cases, found = place.cases(acting), []
     for case in cases:
         situation = acting if acting.case is not None and len(cases) == 1 else replace(acting, case=case)
-        label = case if len(cases) > 1 else ""
+        label = case_titles(place.plan).get(case, case) if len(cases) > 1 else ""
         make = partial(cycle_over, pump, place, situation, label)
         if acting.loads is None and (acting.case is None or isinstance(acting.case, str)):  # the machine's loads, in a case of its own
             found.append(PumpRun.known(pump, place, case) or recalled(place.motion, ("pump cycle", pump.name, case, label), make))

@@ -462,7 +462,8 @@ class LiftingCylinder:
         if found.unlimited and self.ram.side != "both":
             driven += self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0)) or [said("in places")]
         if self.ram.side != "both":
-            driven += [said("all the way {case}", case=case_in_words(case)) for case in self.judge.unlimited_cases(question)]
+            words = (case_in_words(each, found.titles) for each in self.judge.unlimited_cases(question))
+            driven += [said("all the way {case}", case=each) for each in words]
         if driven:
             by = {"where": with_and(driven), "remedy": self.remedy_both()}
             free = said("; the load drives {where}, there it is not limited by this cylinder{remedy}", **by)

@@ -17,14 +17,14 @@ import numpy as np
 
 from ..errors import AssemblyError, LinkageError, SingularError, ensure, require_one_design, require_whole, unwarned
 from ..frozen import immutable
-from ..language import said, translated
-from ..loads import PLAIN_CASE, Acting, Case, ForceElement, LoadCase
+from ..language import translated
+from ..loads import PLAIN_CASE, Acting, Case, ForceElement, LoadCase, case_title, case_titles
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Judge, Motion, Request, Tabled, speakers, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..plan import plan_measure
 from ..quantities import Dimension, Quantity
-from ..reports import At, Run, case_title, column_requests, is_column, motion_over, results, run_words, runs_of
+from ..reports import At, Run, column_requests, is_column, motion_over, results, run_words, runs_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import UNITS, show
@@ -286,7 +286,6 @@ class ReportSubject:
             return [pin_forces_under(motion, each) for motion, there in situations for each in there]
 
     def case_words(self, name: str) -> str:
-        """Return the title of a load case, with its name where sentences use that."""
-        known = self.machine.plan.of_kind(LoadCase).get(name, self.judge.acting.case)
-        label = case_title(known) if isinstance(known, LoadCase) else said("own loads") if name == PLAIN_CASE else name
-        return label if label == name or len(self.judge.cases) == 1 else f"{label} ({name})"
+        """Return how a load case is called; the plain one is that of the situation, where this is of no class."""
+        plan, given = self.machine.plan, self.judge.acting.case
+        return given.label if name not in plan.of_kind(LoadCase) and isinstance(given, LoadCase) else case_title(name, case_titles(plan))

@@ -18,6 +18,8 @@ from .acting import (
     Loads,
     StrokeRates,
     case_in_words,
+    case_title,
+    case_titles,
     situation_of,
     takes_situation,
 )

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, cited, ensure, known_name, require, require_type, unknown
 from ..frozen import immutable, keep_own, record
-from ..language import said
+from ..language import said, translated
 from ..quantities import Member, Reference, in_degrees, is_member_or_name, name_of
 from ..quantities.quantity import plain
 from ..units import deg, require_number
-from .element import AS_IT_RUNS, DIRECTIONS, FRICTIONLESS, ForceElement, Load, Poses
+from .element import AS_IT_RUNS, DIRECTIONS, FRICTIONLESS, Declared, ForceElement, Load, Poses
 from .point import gravity_vector
 
 PLAIN_CASE = "plain"
@@ -26,9 +26,20 @@ OWN_LOADS = "own loads"
 """What the plain case is called in tables of forces; it is taken as its name."""
 
 
-def case_in_words(name: str) -> str:
+def case_titles(plan: Declared) -> dict[str, str]:
+    """Return the titles of a class's load cases by their names, of those that have one beside the name."""
+    cases = plan.of_kind(LoadCase).items()
+    return {name: each.title for name, each in cases if each.title not in ("", name)}
+
+
+def case_title(name: str, titles: Mapping[str, str]) -> str:
+    """Return how a load case is called: its title in the language that is spoken, else its name."""
+    return said("own loads") if name in ("", PLAIN_CASE) else translated(titles[name]) if name in titles else name
+
+
+def case_in_words(name: str, titles: Mapping[str, str]) -> str:
     """Return a load case in words, within a sentence: `in the case full`, `under its own loads` of the plain one."""
-    return said("under its own loads") if name in ("", PLAIN_CASE) else said("in the case {case}", case=name)
+    return said("under its own loads") if name in ("", PLAIN_CASE) else said("in the case {case}", case=case_title(name, titles))
 
 
 STEEPEST = 0.5 * pi * (1.0 + 1e-9)

@@ -95,6 +95,8 @@ class Answer:
         The limit of the condition that counts [SI], NaN where there is none.
     used : float or array
         How far the limit of a condition is used: 1.0 where it is met exactly, infinite where nothing bounds it, 0.0 where there is none.
+    titles : mapping of str to str
+        How load cases are called in sentences, of those that have a title beside their name.
     """
 
     question: object
@@ -122,6 +124,7 @@ class Answer:
     turned: str = ""
     limit: PerDesign = nan
     used: PerDesign = 0.0
+    titles: Mapping[str, str] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         kept = "" if np.ndim(self.value) or self.ok is None else ": kept" if self.ok else ": not kept"
@@ -161,7 +164,7 @@ class Answer:
         if "side" in self.named and self.side:
             words.append(said("on the piston side") if self.side == "piston" else said("on the rod side"))
         if "case" in self.named and self.case:
-            words.append(case_in_words(self.case))
+            words.append(case_in_words(self.case, self.titles))
         if "over" in self.named and self.over:
             words.append(said("over {over}", over=self.over))
         return ", ".join(words)

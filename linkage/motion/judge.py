@@ -20,7 +20,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, ensure, errors_of, heard, is_listed, known_name, require_type, unwarned, warn
 from ..frozen import immutable, record
 from ..language import current_language, said
-from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
+from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase, case_titles
 from ..numeric.box import values_a_stroke
 from ..numeric.line import SAMPLES, highest
 from ..numeric.quadrature import quadrature
@@ -1006,7 +1006,7 @@ class Judge:
             place.over.name, lost, float(worst.unlimited), outside, place.width if worst.seen is not None else {}, count, units,
             measures_of(self.plan, worst.constraint), float(worst.time) if known else np.nan, named,
             int(worst.leg) if known else -1, turned_by(place, question), float(worst.limit),
-            0.0 if is_bare or not known else worst.used,
+            0.0 if is_bare or not known else worst.used, case_titles(self.plan),
         )  # fmt: skip
 
     def reached_by(self, design: tuple[int, ...]) -> Answer:

@@ -15,7 +15,7 @@ from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, UnfitError, unwarned
 from ..frozen import immutable
 from ..language import heading_of, said
-from ..loads import PLAIN, PLAIN_CASE, LoadCase, TwoPoint, case_in_words
+from ..loads import PLAIN, PLAIN_CASE, LoadCase, TwoPoint, case_in_words, case_title, case_titles
 from ..plan import Mask, name_or_pins, opening
 from ..quantities import Member
 from ..units import Amount, deg, display_unit, show, shown_number
@@ -311,7 +311,8 @@ def assembly_verdicts(judge: Judge) -> list[Verdict]:
     occurring = [place.over.cases for place in judge.places]
     if judge.acting.case is None and None not in occurring and all(place.over.name for place in judge.places):
         never = sorted({*judge.plan.of_kind(LoadCase)}.difference(*filter(None, occurring)))
-        passed += [said("The load case {case} occurs over no Over, so that nothing is judged in it.", case=case) for case in never]
+        unjudged = (case_title(each, case_titles(judge.plan)) for each in never)
+        passed += [said("The load case {case} occurs over no Over, so that nothing is judged in it.", case=each) for each in unjudged]
     for name, stroke in judge.plan.strokes.items():
         turns = abs(stroke.end - stroke.start) / (2.0 * np.pi)
         if name in judge.plan.turning and turns > MANY_TURNS and not any(isinstance(end, Amount) for end in (stroke.start, stroke.end)):
@@ -600,12 +601,12 @@ def pose_sentence(motion: Motion) -> str:
         if each.ok is False:
             told = show(float(each.value), display_unit(each.measures, "mm"), 4, float(each.limit))
             value = told if np.isfinite(each.value) else said("no value")
-            case = said("own loads") if each.case == PLAIN_CASE else each.case
+            case = case_title(each.case, each.titles)
             faults.append(f"{rule} {value} ({case})" if each.case and "case" in each.named else f"{rule} {value}")
     if near and not faults and not unknown:
         cases = () if None in occurring else dict.fromkeys(case for each in occurring for case in each or ())
         is_part = cases and {*cases} != {PLAIN_CASE, *plan.of_kind(LoadCase)}
-        return all_kept_here(", ".join(map(case_in_words, cases)) if is_part else "")
+        return all_kept_here(", ".join(case_in_words(each, case_titles(plan)) for each in cases) if is_part else "")
     kept = said("all kept") if not unknown else said("{n} kept", n=len(found)) if found else ""
     here = ", ".join(faults) or kept
     parts = [] if near else [said("outside what is judged")]

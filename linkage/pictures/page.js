@@ -15,7 +15,8 @@ const columns = data.columns.map(([name, unit, row, ru, values]) => ({ name, uni
 let acting = -1;
 const caseNow = () => (acting < 0 ? (data.situationOf[strokes[runs].over] ?? 0) : acting);
 const actingIn = (name) => { const k = data.cases.findIndex((each, k) => each === name && data.timeOf[k] === data.timeOf[caseNow()]); return k === caseNow() ? -1 : k; };
-const caseTitle = (name) => (data.cases.some(Boolean) ? name || say("own loads") : "");
+const caseSaid = (name) => (language === "ru" && data.casesRu[name]) || name;
+const caseTitle = (name) => (data.cases.some(Boolean) ? caseSaid(name) || say("own loads") : "");
 for (const each of [...data.cylinders, ...data.arrows]) for (const name of ["pressure", "most", "x", "y", "couple", "atX", "atY"]) if (each[name]?.length) {
   const row = each[name];
   Object.defineProperty(each, name, { get: () => rowNow(row) });

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import LinkageError, cited, ensure, is_listed, known_name, require, require_type, unknown, unwarned
 from ..language import heading_of, language, translated
-from ..loads import PLAIN_CASE, Case, ForceElement
+from ..loads import PLAIN_CASE, Case, ForceElement, case_titles
 from ..mechanism import Mechanism, verdicts_of
 from ..motion import Answer, Column, HasVerdicts, Judge, LiveText, Motion, Tabled, case_named, speakers, stroke_display_unit
 from ..motion.requests import NodeRequest, RequestLike, transmission
@@ -261,7 +261,9 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
     asked = [each[key]["unit"] for each in judge["questions"] for key in ("unit", "saysUnit") if key in each]
     depth = {index[name]: name.count(".") for name in plan.moving if name in index}
     with language("ru"):
-        russian_title = plan.heading
+        russian_title, titles = plan.heading, case_titles(plan)
+        russian_cases = {title: translated(title) for title in titles.values()}
+    cases = [case_named(plan, each.case) if each.case is not None else "" for each in requests.situations]
     return {
         "count": requests.count,
         "dims": dims,
@@ -270,7 +272,8 @@ def page_data(requests: PageRequests, live: LiveText) -> PageData:
         "run": len(machine.strokes) if run.is_path else list(machine.strokes).index(run.stroke),
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
-        "cases": [case_named(plan, each.case) if each.case is not None else "" for each in requests.situations],
+        "cases": [titles.get(name, name) for name in cases],
+        "casesRu": russian_cases,
         "situationOf": requests.situation_of,
         "timeOf": [motions.index(each) for each in motions],
         "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},

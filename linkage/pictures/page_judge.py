@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import LawError, LinkageError, UntracedError, ensure, unwarned
 from ..language import heading_of, language, translated
-from ..loads import FRICTIONLESS, PLAIN_CASE, Acting
+from ..loads import FRICTIONLESS, PLAIN_CASE, Acting, case_titles
 from ..mechanism import Mechanism
 from ..motion import (
     Answer,
@@ -251,7 +251,8 @@ class LiveQuestions:
             rows = {"row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0]}
         is_timed = place.instants is not None and is_of_force(row.leaf.quantity)
         told = {"timed": int(is_timed), "reciprocal": int(row.is_reciprocal), "stays": int(row.stays_at_zero), "side": row.piece.side}
-        told |= {"case": situation.case, "direction": situation.direction, "drive": situation.drive}
+        case = case_titles(self.machine.plan).get(situation.case, situation.case)
+        told |= {"case": case, "direction": situation.direction, "drive": situation.drive}
         return rows | {"over": number, "sense": row.search_sign} | {name: each for name, each in told.items() if each}
 
 

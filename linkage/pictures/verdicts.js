@@ -17,7 +17,7 @@ function asked(n) {
 
 /* ---- in words ---- */
 
-const caseWords = (name) => (name && name !== "plain" ? say("in the case {case}", { case: name }) : say("under its own loads"));
+const caseWords = (name) => (name && name !== "plain" ? say("in the case {case}", { case: caseSaid(name) }) : say("under its own loads"));
 function situationText(each) {
   const words = [];
   if (each.direction) {
@@ -349,7 +349,7 @@ function atPose() {
   const at = followed(stands).slice(0, own.length), { covered, among, found } = asking.here(at, pose, strokes[runs].courses ? strokes[runs].over : -1), faults = [];
   for (const [q, each] of found.entries()) {
     const unit = unitOf(questions[q], each), isOwn = questions[q].unit.unit || !isNumber(each.says?.value), value = isNumber(each.value) ? ruleNumber(questions[q], each) : say("no value");
-    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) && isOwn ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : each.case });
+    if (each.ok === false) faults.push({ q, rule: ruled(questions[q]), text: value, limit: isNumber(each.limit) && isOwn ? size(each.limit, unit) : "", case: each.case === "plain" ? say("own loads") : caseSaid(each.case) });
   }
   for (const each of columns) {
     const given = data.limits[each.name], value = given && each.row !== undefined && !questions.some(({ rule }) => rule === each.name) ? pose.values[each.row][0] : NaN;

@@ -18,7 +18,6 @@ from .runs import (
     NOTHING,
     At,
     Run,
-    case_title,
     closely,
     first_stroke,
     in_case_words,

@@ -11,8 +11,8 @@ import numpy as np
 
 from .. import motion as between
 from ..errors import DefinitionError, ensure, known_name, require_type
-from ..language import said, translated
-from ..loads import PLAIN, Acting, Case, LoadCase, case_in_words
+from ..language import said
+from ..loads import PLAIN, Acting, Case, LoadCase, case_in_words, case_titles
 from ..mechanism import Mechanism
 from ..motion import Judge, Motion, Run, case_named, out_of_reach, require_motion
 from ..motion.judge import Domain
@@ -104,12 +104,7 @@ def in_case_words(plan: Plan, case: Case) -> str:
     known = cases.get(case, case) if isinstance(case, str) else case
     if known is None and not cases:
         return ""
-    return case_in_words(case_title(known) if isinstance(known, LoadCase) else known or "")
-
-
-def case_title(case: LoadCase) -> str:
-    """Return the title of a load case in the language that is spoken; its name where it has no title of its own."""
-    return case.label if case.title in ("", case.name) else translated(case.title)
+    return case_in_words((known.name or known.label) if isinstance(known, LoadCase) else known or "", case_titles(plan))
 
 
 def run_along(motion: Motion) -> tuple[Run, int]:

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError, UntracedError, cited, known_name
 from ..frozen import FrozenDict, record
 from ..language import said
-from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, Acting, Case, Loads, TwoPoint, case_in_words, situation_of
+from ..loads import AS_IT_RUNS, FRICTIONLESS, PLAIN, Acting, Case, Loads, TwoPoint, case_in_words, case_title, case_titles, situation_of
 from ..motion import Judge, Motion, drive_kind, most, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -273,7 +273,8 @@ def held_verdict(judge: Judge) -> Verdict | None:
         fault = held_fault(judge.motion, case)
         if fault:
             is_own = plan_in_case(judge.plan, Acting(case=case)) is judge.plan
-            return Verdict("held", False, fault if is_own else said("in load case {case}, {sentence}", case=case, sentence=fault))
+            title = case_title(case, case_titles(judge.plan))
+            return Verdict("held", False, fault if is_own else said("in load case {case}, {sentence}", case=title, sentence=fault))
     return None
 
 
@@ -324,5 +325,5 @@ def drive_remarks(judge: Judge) -> list[Remark]:
             shown = show(size, drive_kind(plan, name)[1], 4)
             force = said("a force that grows without bounds") if np.isinf(size) else said("up to {force}", force=shown)
             what = said("{stroke} is held by no cylinder: its drive gives {force}", stroke=name, force=force)
-            found[name] = size, Remark(f"{what}, {case_in_words(case) + ', ' if case else ''}{answer.place}.")
+            found[name] = size, Remark(f"{what}, {case_in_words(case, answer.titles) + ', ' if case else ''}{answer.place}.")
     return [remark for _, remark in found.values()]

@@ -230,10 +230,10 @@ def test_units_are_those_of_the_system():
 
 def test_load_cases_are_looked_at_alone_or_all(tmp_path):
     both = lifter()
-    assert dict(both.facts)["Load cases"] == "own loads (plain), twice (double)"
+    assert dict(both.facts)["Load cases"] == "own loads, twice"
     (grid,) = grids(both, "least", "unit")
     (whole,) = (row for row in grid.rows if row[0] == "S")
-    assert "under its own loads" in whole[3] and "in the case double" in whole[5]
+    assert "under its own loads" in whole[3] and "in the case twice" in whole[5]
     for acting in (dict(case="plain"), dict(case="double"), dict(acting=Acting(case="double"))):
         only = report_document(Lifter(), **acting)
         assert dict(only.facts)["Load cases"] == ("own loads" if acting == dict(case="plain") else "twice")
@@ -349,7 +349,7 @@ def test_curves_keep_one_stroke_and_mark_the_worst_of_the_box(grab):
     picture = next(each for each in pictures.values() if "thrust lift" in each.caption)  # AB is S: the same curve as the drive's force
     assert "along S; T = 150 mm held, under its own loads." in picture.caption
     answer = Grab().answers([most(thrust("lift"))])[0]
-    assert f"greatest {figures(answer.value / 1e3)} kN, in the case shock, at S = " in picture.caption
+    assert f"greatest {figures(answer.value / 1e3)} kN, in the case with shock, at S = " in picture.caption
     from matplotlib.figure import Figure
 
     ax = Figure().add_axes((0.1, 0.1, 0.8, 0.8))

@@ -623,13 +623,13 @@ class LiftingCylinder:
         if is_pushed and not push.unbounded:
             (push,) = judge.answers([most(self.back(way, resistance, "whole push")) <= 0.0])
         by = {"where": where, "against": against, "place": push.place, "pose": push.place}
-        by["push"] = show_enough(float(push.value), self.unit)
+        by["push"], by["much"] = show_enough(float(push.value), self.unit), self.show(push.value)
         if push.unbounded:
             text = said("it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.", **by)
         elif self.ram.only_pushes:
-            text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}, and no oil pushes it in.", **by)
+            text = said("it does not sink by itself {where} {against}: it lacks up to {much}, {place}, and no oil pushes it in.", **by)
         elif not is_pushed:
-            text = said("it does not sink by itself {where} {against}: it lacks up to {push}, {place}; no pump is on its other side.", **by)
+            text = said("it does not sink by itself {where} {against}: it lacks up to {much}, {place}; no pump is on its other side.", **by)
         else:
             text = said("it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.", **by)
             supply = float(self.circuit.supply(judge.motion))

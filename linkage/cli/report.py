@@ -182,6 +182,7 @@ def plot_command(options: Namespace) -> int:
     path = picture(options, machine)
     fits = options.columns or not (options.limits or options.case or options.direction)
     ensure(fits, "--limit, --case and --direction go with curves; name their columns, such as plot NAME pressure.")
+    options.over = next(iter(settings.slow_overs(machine, options)), options.over)
     at = settings.strokes_or_motion(machine, options)
     without_lists_of_properties()
     from ..pictures import plot

@@ -211,6 +211,16 @@ def span_said(text: str, kind: str, what: str) -> tuple[float, ...]:
     return span
 
 
+def slow_overs(machine: Mechanism, options: Namespace) -> list[str]:
+    """Return the `Over`s that are not in time, where a direction is asked for, others are, and nothing says where; a remark names those."""
+    is_directed = Acting(direction=getattr(options, "direction", None)).is_moving and not (options.over or options.strokes)
+    places = machine.judge().places if is_directed else ()
+    timed, slow = ([each.over.name for each in places if (each.instants is not None) is way] for way in (True, False))
+    if timed and slow:
+        say_remark(f"--direction {options.direction}: {', '.join(timed)} is left out, as it runs in time, one way.")
+    return slow if timed else []
+
+
 def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None, Motion]]:
     """Return the motions that a table shows, each with its run. At strokes such as `--at S=0.6,650mm` there is none.
 
@@ -219,12 +229,7 @@ def motions_at(machine: Mechanism, options: Namespace) -> list[tuple[Run | None,
     more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
     given, every = strokes_given(machine, options), getattr(options, "every", None)
-    is_directed = Acting(direction=getattr(options, "direction", None)).is_moving and not (options.over or given)
-    places = machine.judge().places if is_directed else ()
-    timed, slow = ([each.over.name for each in places if (each.instants is not None) is way] for way in (True, False))
-    if timed and slow:  # a direction is of those that are not in time
-        options.over = slow
-        say_remark(f"--direction {options.direction}: {', '.join(timed)} is left out, as it runs in time, one way.")
+    options.over = slow_overs(machine, options) or options.over
     if machine.strokes and not given:
         overs = overs_of(machine, getattr(options, "over", ()))
         runs = runs_of(machine, over=overs, acting=acting_of(machine, options) if hasattr(options, "drive") else None)

@@ -101,10 +101,11 @@ def in_digits(text: str) -> str:
 
 
 def is_left_out(machine: Mechanism, name: str) -> bool:
-    """Return whether a number of an element is zero since the element is declared without it, as a pump's flow may be."""
+    """Return whether a number of an element changes nothing since it was not given, as a flow of 0, an efficiency of 1."""
     owner, _, own = name.rpartition(".")
     kind = type(machine.plan.members.get(owner))
-    return issubclass(kind, ForceElement) and getattr(kind, own, None) == 0.0 and not np.any(machine.dimensions[name])
+    default = getattr(kind, own, None)
+    return issubclass(kind, ForceElement) and default in (0.0, 1.0) and bool(np.all(np.asarray(machine.dimensions[name]) == default))
 
 
 GAP = "  "

@@ -192,6 +192,8 @@ def test_a_direction_is_of_the_overs_that_are_not_in_time(said, tmp_path):
     for command, pins in (("table", "--pins"), ("forces", "--poses")):
         code, out, err = said(command, "timed.py", "--direction", "extending", pins)
         assert code == 0 and "going is left out, as it runs in time" in err and "0.1000" in out and "0.2000" not in out
+    code, _, err = said("plot", "timed.py", "pressure", "--direction", "extending", "-o", str(tmp_path / "curve.png"))
+    assert code == 0 and "going is left out, as it runs in time" in err
     code, _, err = said("table", "timed.py", "--direction", "extending", "--over", "going")
     assert code and "in time the machine moves one way" in err
 

@@ -187,5 +187,6 @@ def test_a_small_column_has_three_figures_and_noise_has_none():
 
 def test_a_number_that_an_element_is_declared_without_is_not_given():
     noted = {name: note for name, _, note in design_rows(ThreePointHitch())}
-    assert noted["circuit.back_pressure"] == "not given" and noted["circuit.flow"] == noted["slope"] == ""
+    assert noted["circuit.back_pressure"] == noted["circuit.hydraulic_efficiency"] == "not given"
+    assert noted["circuit.flow"] == noted["slope"] == ""
     assert {name: note for name, _, note in design_rows(ThreePointHitch(**{"circuit.back_pressure": 2e5}))}["circuit.back_pressure"] == ""

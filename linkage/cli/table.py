@@ -19,7 +19,7 @@ import numpy as np
 from ..disk import replacing_text
 from ..errors import cited, ensure
 from ..language import heading_of, said
-from ..loads import Acting
+from ..loads import PLAIN_CASE, Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, judged_poses, limits_over
 from ..reports import (
@@ -74,7 +74,8 @@ def table_command(options: Namespace) -> int:
     for run, poses in motions:
         columns = settings.columns_picked(machine, poses, names, strokes, settings.plain_value(acting), None if run is None else run.case)
         columns += settings.ratio_columns(machine, poses, options.ratio, options.wrt)
-        outside = np.ravel(poses.reached & ~judged_poses(judge, poses)).tolist()
+        case = (settings.plain_value(acting).case or PLAIN_CASE) if run is None else run.case or PLAIN_CASE
+        outside = np.ravel(poses.reached & ~judged_poses(judge, poses, case)).tolist()
         friction = friction_of_columns(poses, columns, settings.plain_value(acting).direction)
         tables.append((f"{heading_words(machine, run, poses)}\n{friction}".strip(), columns, outside))
     pins = worst_pins(machine, over, acting) if options.pins else ""

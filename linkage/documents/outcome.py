@@ -127,7 +127,7 @@ def results_blocks(
         bare = [] if names else [column.name for column in listed if np.isnan(np.asarray(column.shown, float)).all()]
         shown = [column for column in listed if column.name not in {*run.held, *bare}]
         caption = said("Results {run}", run=words) if words else said("Results over the stroke")
-        outside = np.ravel(motion.reached & ~judged_poses(subject.judge, motion)).tolist()
+        outside = np.ravel(motion.reached & ~judged_poses(subject.judge, motion, run.case or PLAIN_CASE)).tolist()
         moving = [column for column in shown if np.size(column.values) > 1 and column.name not in run.ways]
         texts = {} if names or subject.has_own_table else {column: still_text(subject, column) for column in moving}
         yield from column_grids(subject, caption, [column for column in shown if not texts.get(column)], outside)

@@ -15,9 +15,9 @@ from ..assembly import sketch_words, width_words
 from ..errors import DefinitionError, LinkageError, UnfitError, unwarned
 from ..frozen import immutable
 from ..language import heading_of, said
-from ..loads import PLAIN, PLAIN_CASE, LoadCase, TwoPoint, case_in_words, case_title, case_titles
+from ..loads import PLAIN, PLAIN_CASE, Case, LoadCase, TwoPoint, case_in_words, case_title, case_titles
 from ..plan import Mask, name_or_pins, opening
-from ..quantities import Member
+from ..quantities import Member, name_of
 from ..units import Amount, deg, display_unit, show, shown_number
 from ..verdict import Remark, Verdict
 from . import stroke_search
@@ -522,7 +522,7 @@ PLACES = 257
 """Places of a path in time, which goes near enough straight from one to the next."""
 
 
-def judged_poses(judge: Judge, motion: Motion) -> Mask:
+def judged_poses(judge: Judge, motion: Motion, case: Case = None) -> Mask:
     """Return which poses of a motion a judge looks at.
 
     Parameters
@@ -531,6 +531,8 @@ def judged_poses(judge: Judge, motion: Motion) -> Mask:
         Who looks, over its `Over`s: `machine.judge()`.
     motion : Motion
         Poses of the same machine.
+    case : LoadCase or str, optional
+        The load case that acts: what an `Over` looks at in others only is not looked at. By default any.
 
     Returns
     -------
@@ -540,7 +542,8 @@ def judged_poses(judge: Judge, motion: Motion) -> Mask:
     """
     found = np.zeros(require_motion(motion).shape, bool)
     for place in judge.places:
-        found |= covered(place, motion) & place.over.condition_mask(motion)
+        if case is None or not place.over.cases or name_of(case) in place.over.cases:
+            found |= covered(place, motion) & place.over.condition_mask(motion)
     return found
 
 

@@ -209,6 +209,11 @@ def test_a_table_runs_along_the_machines_path(said, own):
     assert printed.count("a, deg") == 2 and "over back: " in printed
     dagger = said("table", "crane.py", "--at", "a=0.2,0.5", "--at", "b=0.0,0.9")[1].splitlines()
     assert [line.endswith("†") for line in dagger[1:5]] == [False, True, False, True] and dagger[-1].startswith("† This pose")
+    loads = "    load = Weight(Q, mass=5)\n    full = LoadCase(scale=dict(load=2.0))\n"
+    (own / "full.py").write_text(TWO + loads + path.replace("])", "], cases=['full'])"))
+    for case, ends in (([], True), (["--case", "full"], False)):  # judged in another load case than the one that is shown
+        lines = said("table", "full.py", "--at", "a=0.2,0.5", "--at", "b=0.0", *case)[1].splitlines()
+        assert [line.endswith("†") for line in lines if line.lstrip()[:1].isdigit()] == [ends, ends]
     assert strokes_in(said("table", "crane.py", "--csv", "-", "--at", "a=0.3")[1])[0] == (17.188734, 0.0)
     code, _, complaint = said("table", "mower_lift", "--every", "100")
     assert code == 2 and "this step is longer than the stroke S; write its unit" in complaint

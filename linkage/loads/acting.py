@@ -276,7 +276,7 @@ class Acting:
         if isinstance(self.case, str) and self.case == OWN_LOADS:
             object.__setattr__(self, "case", PLAIN_CASE)
         for name, given in (("rates", self.rates), ("accelerations", self.accelerations)):
-            if given is not None and given != AS_IT_RUNS:
+            if given is not None and not (isinstance(given, str) and given == AS_IT_RUNS):
                 require_type(f"Acting({name}", given, Mapping, f"a value for each stroke is expected, such as {name}=dict(S=0.05)")
         if self.inertia is not None and not isinstance(self.inertia, bool):
             raise DefinitionError(f"Acting(inertia={cited(self.inertia)}): True or False is expected, or nothing.")

@@ -281,7 +281,7 @@ class Motion(Shown):
         DefinitionError
             A dimension of the part follows a stroke.
         """
-        part = self.plan.members.get(name)
+        part = self.plan.members.get(name) if isinstance(name, str) else None
         if not isinstance(part, Part):
             raise unknown("Part", name, self.plan.of_kind(Part), where=self.plan.title)
         axes = part.axes(self.plan.members)

@@ -32,10 +32,10 @@ def whole_body(plan: Plan, body: object) -> tuple[str, ...]:
 
     Raises DefinitionError, with the bodies there are, for any other; a driven length changes and is none.
     """
-    name = getattr(body, "name", body)
+    name = str(getattr(body, "name", body))
     fixed, *moving = plan.bodies or (None,)
     links = {each: link.point_names for each, link in plan.of_kind(Link).items()}
-    given = links.get(name, tuple(name.split())) if isinstance(name, str) else ()
+    given = links.get(name, tuple(name.split()))
     for each in moving:
         if name == each.name or (len(set(given)) > 1 and set(given) <= set(each.points)):
             return each.points

@@ -30,7 +30,7 @@ from ..motion.measures import At, CombinedMeasure, Constraint, FixedNumber, Leaf
 from ..motion.requests import Combined
 from ..numeric.descent import without_repeats
 from ..program import FloatArray, fixed_backend
-from ..quantities import Quantity, ref
+from ..quantities import Quantity
 from ..statics.applied import case_of
 from ..statics.law_requests import LawRequest
 from ..units import require_number, show
@@ -420,8 +420,8 @@ def with_spread(problem: Problem, tolerances: Mapping[str, ToleranceLike], sigma
             ensure(isinstance(quantity, (str, Quantity, Request)), f"{what}; take a quantity or a request.")
             by = sense * float(np.sign(grows(expression, leaf, values))) * sigmas
             if by != 0.0:
-                moved = (ref(quantity) if isinstance(quantity, str) else quantity) + by * sigma(quantity, tolerances)
-                found = with_leaf(found, leaf, replace(leaf, quantity=moved))
+                own = measures.bound_quantity(problem.plan, quantity) if isinstance(quantity, str) else quantity
+                found = with_leaf(found, leaf, replace(leaf, quantity=own + by * sigma(own, tolerances)))
         return found
 
     objectives = [spread(each, problem.sense) for each in problem.objectives]

@@ -768,6 +768,7 @@ class LiftLine(Circuit):
         cylinders the greatest, unless one is named.
         """
         given = situation_of("holding", acting, loads=loads, case=case)
+        require_poses(motion)
         stands = None if motion.time is None else dict.fromkeys(motion.plan.strokes, 0.0)
         plain, working, other = Acting(given.loads, given.case, rates=stands), [], []
         for ram in self.meant(motion, cylinder):

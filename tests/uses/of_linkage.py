@@ -638,7 +638,7 @@ USES = [
     ('motion.gradient(@, ["OB"])', "Stroke(0, 1)", ("Stroke(0, 1) stands here without a name", "= Stroke(0, 1), and write L0 here.")),
     ("motion.part(@)", '"Q"; 3; np.zeros(2)', ("Part", "is unknown in Lift",)),
     ("motion.pole(@)", '"Q"; 3; np.zeros(2)', ("Body", "is unknown in Lift",)),
-    ("Acting(rates=@)", "np.zeros(2); 3", ("Acting(rates", "a value for each stroke is expected, such as rates=dict(S=0.05)",)),
+    ("Acting(rates=@)", "np.zeros(2)", ("Acting(rates", "a value for each stroke is expected, such as rates=dict(S=0.05)",)),
     ("motion.moved(@)", '3; None; {}; {"Q": 1}', ("a value for each stroke is expected, dict(S=...).",)),
     ("motion.moved(@)", '{"S": "a"}', ("Lift: moved({'S': 'a'}): numbers or arrays that fit each other are expected.",)),
     ('ratio("G", order=@)', '0; 3; "a"; None; True', ("derivatives of order 1 and 2 are provided.",)),

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import permutations
 from typing import Any
 
 import numpy as np
@@ -329,7 +328,19 @@ class FormulaSearch:
                         yield each.symbol * dimension
                     elif name not in self.neutral and abs(value * shares[0] - 1.0) <= EQUAL:
                         yield each.symbol / dimension
-        yield from (a - b for a, b in permutations(simple, 2))
+        yield from self._differences(place, simple)
+
+    def _differences(self, place: int, simple: Sequence[sympy.Expr]) -> Iterator[sympy.Expr]:
+        """Yield the differences of two formulas that come near a column at every pose here."""
+        if self.here is None or not simple:
+            return
+        column, known = self.here[0][place], self.here[1]
+        values = np.array([np.broadcast_to(worked_out(each, known), column.shape) for each in simple], float)
+        near = 2.0 * EQUAL * max(float(np.nanmax(np.abs(column), initial=0.0)), NEGLIGIBLE)
+        for a, own in zip(simple, values, strict=True):
+            apart = own - values
+            fits = (np.abs(apart - column) <= near) | (np.isnan(apart) & np.isnan(column))
+            yield from (a - b for b, fit in zip(simple, fits.all(axis=1), strict=True) if fit and b is not a)
 
     def _own(self, column: Column) -> list[sympy.Expr]:
         """Return the symbols of a column's own name."""

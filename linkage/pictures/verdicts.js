@@ -197,7 +197,7 @@ function judge(n = STILL) {
   list(found);
   count(found);
 }
-const weight = ({ ok, share, rule, stale }) => (stale ? -1e7 : 0) + (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : -1);
+const weight = ({ ok, share, rule, stale }) => (stale ? -1e7 : 0) + (ok === false ? 1e6 : rule ? 0 : -1e3) + (isNumber(share) ? share : ok === false ? 1e5 : -1);
 function list(found) {
   const groups = new Map(), worst = ([, rows]) => max(...rows.map(weight));
   for (const each of found) {

@@ -498,8 +498,12 @@ class LiftingCylinder:
         found = self.judge.answer(most(pressure_request(*self.request_arguments, is_needed=True)))
         if found.unbounded or not np.isfinite(found.value):
             return said("No pressure and no bore lifts there; keep away from that pose.")
-        needed = show_enough(float(found.value), self.unit)
-        if self.circuit.relieves(self.judge.plan) and found.value > float(self.circuit.relief_pressure(self.judge.motion)):
+        pressure = float(found.value)
+        if not np.isnan(worst.time):  # its reserve counts as it begins to move, too, where the pressure is the one at rest
+            place = self.judge.there(worst)
+            pressure = float(np.squeeze(self.circuit.driving_pressure(self.ram, place, self.judge.situation(worst))))
+        needed = show_enough(pressure, self.unit)
+        if self.circuit.relieves(self.judge.plan) and pressure > float(self.circuit.relief_pressure(self.judge.motion)):
             needed = said("{pressure}, at its relief valve as well", pressure=needed)
         if len(self.circuit.rams(self.judge.motion)) > 1:
             return said("It needs {needed}, or larger bores on this line.", needed=needed)

@@ -446,7 +446,7 @@ class Structure:
             for _, term in own_terms(self.plan, drive):
                 follows = self.plan.reaches(term.name or term, within=carrier)
                 given |= {drive.along} if self.holders.line_quantities & follows else set()
-                if drive.along:
+                if drive.along in strokes:
                     strokes[drive.along] |= follows & set(self.plan.strokes)
         return strokes, given
 

@@ -11,6 +11,7 @@ from hydraulics import Cylinder, LiftCircuit, capacity, pressure, reserve, thrus
 from linkage import RIGHT, Damper, DefinitionError, Dyad, Ground, Mechanism, OnLink, Over, PinFriction, Stroke, Weight, least, ramp
 from linkage.loads import Acting
 from linkage.units import bar, kN, mm
+from mechanisms.mower_lift import LoweredMowerLift
 from tests.members import told_by
 
 
@@ -125,3 +126,9 @@ def test_rates_and_a_direction_agree_or_are_refused_at_every_door():
         for door in doors:
             with pytest.raises(DefinitionError, match="at these rates it goes the other way"):
                 door()
+
+
+def test_what_is_needed_over_a_path_in_time_goes_with_the_reserve():
+    (found,) = [each for each in LoweredMowerLift().verdicts() if each.rule == "lifting"]
+    needed = float(found.sentence.partition("It needs ")[2].partition(" kgf/cm2")[0])
+    assert needed * float(found.answer.value) == pytest.approx(155.0, rel=1e-3)

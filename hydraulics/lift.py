@@ -501,7 +501,8 @@ class LiftingCylinder:
         pressure = float(found.value)
         if not np.isnan(worst.time):  # its reserve counts as it begins to move, too, where the pressure is the one at rest
             place = self.judge.there(worst)
-            pressure = float(np.squeeze(self.circuit.driving_pressure(self.ram, place, self.judge.situation(worst))))
+            work = self.circuit.work_of_all(self.ram, place, self.judge.situation(worst))
+            pressure = float(np.squeeze(self.circuit.driving_pressure(work, place)))
         needed = show_enough(pressure, self.unit)
         if self.circuit.relieves(self.judge.plan) and pressure > float(self.circuit.relief_pressure(self.judge.motion)):
             needed = said("{pressure}, at its relief valve as well", pressure=needed)

@@ -476,15 +476,15 @@ class LiftLine(Circuit):
         members = motion.plan.members
         if is_blocked(ram, members):
             return np.asarray(np.maximum(standing_pressure(self, motion, acting), 0.0))[()]
-        work, found = self.work_of_all(ram, motion, acting), self.driving_pressure(ram, motion, acting)
+        work = self.work_of_all(ram, motion, acting)
+        found = self.driving_pressure(work, motion)
         goes = ram.goes(motion, acting)
         if goes is not None:  # where it stands no oil flows and nothing rubs
             found = np.where(goes == 0.0, np.maximum(work.along + work.against, 0.0) / work.area, found)
         return over_valves(self, ram, motion, acting, found)
 
-    def driving_pressure(self, ram: Ram, motion: AnyMotion, acting: Acting) -> Array:
-        """Return the pressure that drives a cylinder, shape (...) [Pa gauge]; where it stands, that at which it begins to move."""
-        work = self.work_of_all(ram, motion, acting)
+    def driving_pressure(self, work: Work, motion: AnyMotion) -> Array:
+        """Return the pressure that does a work, shape (...) [Pa gauge]; where the cylinder stands, that at which it begins to move."""
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
         return np.asarray(np.maximum(work.force + back + work.against, 0.0) / (work.area * share))[()]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -275,10 +275,8 @@ class FormulaSearch:
         self.changed = self._first(self._changes(all_of=True))
         self.beside = self._first(self._changes(all_of=False))
         found = [self._live(place, self._named(place)) for place in range(len(self.table))]
-        simple = dict.fromkeys(each.expr for each in found if each.expr is not None)
-        return [
-            each if each.expr is not None else self._live(place, self._combined(place, list(simple))) for place, each in enumerate(found)
-        ]
+        simple = {} if self.here is None else {each.expr: worked_out(each.expr, self.here[1]) for each in found if each.expr is not None}
+        return [each if each.expr is not None else self._live(place, self._combined(place, simple)) for place, each in enumerate(found)]
 
     def _live(self, place: int, candidates: Iterator[sympy.Expr]) -> LiveResult:
         column, own = self.table[place], self._own(self.table[place])
@@ -311,7 +309,7 @@ class FormulaSearch:
         yield from (name for name in self.calculation.stroke_symbols.values() if name not in own)
         yield from (each.symbol for each in reversed(self.calculation.columns) if each.expr is not None and each.symbol not in own)
 
-    def _combined(self, place: int, simple: list[sympy.Expr]) -> Iterator[sympy.Expr]:
+    def _combined(self, place: int, simple: Mapping[sympy.Expr, Numbers]) -> Iterator[sympy.Expr]:
         """Yield a quantity divided by a dimension, or multiplied, and differences of formulas of other columns."""
         if self.here is not None:
             table, known = self.here
@@ -330,12 +328,12 @@ class FormulaSearch:
                         yield each.symbol / dimension
         yield from self._differences(place, simple)
 
-    def _differences(self, place: int, simple: Sequence[sympy.Expr]) -> Iterator[sympy.Expr]:
-        """Yield the differences of two formulas that come near a column at every pose here."""
+    def _differences(self, place: int, simple: Mapping[sympy.Expr, Numbers]) -> Iterator[sympy.Expr]:
+        """Yield the differences of two formulas, with their values, that come near a column at every pose here."""
         if self.here is None or not simple:
             return
-        column, known = self.here[0][place], self.here[1]
-        values = np.array([np.broadcast_to(worked_out(each, known), column.shape) for each in simple], float)
+        column = self.here[0][place]
+        values = np.array([np.broadcast_to(each, column.shape) for each in simple.values()], float)
         near = 2.0 * EQUAL * max(float(np.nanmax(np.abs(column), initial=0.0)), NEGLIGIBLE)
         for a, own in zip(simple, values, strict=True):
             apart = own - values

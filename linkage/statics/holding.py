@@ -456,15 +456,16 @@ def levers_of(poses: FlatPoses, holders: Holders, senses: Sequence[int]) -> Leve
     lines = holders.lines
     count = len(lines)
     matrix, sizes, shares = poses.zeros(count, count), poses.zeros(count, count), []
+    ways = [{name: poses.flattened(rate) for name, rate in alone(poses.motion, holders.closed, each.stroke).items()} for each in lines]
     for i, line in enumerate(lines):
         weights = areas(line, poses, senses[i])
         shares.append(tuple(weights) if line.tie is not None else tuple(weight / weights[0] for weight in weights))
         for cylinder, part in zip(line.cylinders, shares[-1], strict=True):
-            for j, other in enumerate(lines):
-                for name, rate in alone(poses.motion, holders.closed, other.stroke).items():
+            for j, way in enumerate(ways):
+                for name, rate in way.items():
                     lever, size = lever_of(poses, cylinder, name)
-                    matrix[:, i, j] += part * lever * poses.flattened(rate)
-                    sizes[:, i, j] += np.abs(part * poses.flattened(rate)) * size
+                    matrix[:, i, j] += part * lever * rate
+                    sizes[:, i, j] += np.abs(part * rate) * size
 
     def work(line: PressureLine, own: Sequence[FloatArray], stroke: str) -> FloatArray:
         """Return the work of a line on a unit of a stroke, with its cylinders' own shares."""
@@ -559,9 +560,8 @@ def inverse_size(rows: Sequence[Sequence[FloatArray]]) -> FloatArray:
 def traced_solution(rows: Sequence[Sequence[object]], right: Sequence[object]) -> list[FloatArray]:
     """Return the unknowns of a linear system of a law that is being traced; NaN or infinity where it is singular."""
     some = next(each for row in (*rows, right) for each in row if isinstance(each, Traced))
-    graph = some.node.graph
-    nodes, ends = ([[graph.node(node_of(each)) for each in row] for row in part] for part in (rows, [right]))
-    return cast(list[FloatArray], [Traced(each, some.notes) for each in eliminated(nodes, ends[0])])
+    *matrix, ends = [[some.node.graph.node(node_of(each)) for each in row] for row in (*rows, right)]
+    return cast(list[FloatArray], [Traced(each, some.notes) for each in eliminated(matrix, ends)])
 
 
 def crossed(a: Sequence[FloatArray], b: Sequence[FloatArray]) -> list[FloatArray]:

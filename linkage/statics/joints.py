@@ -158,8 +158,8 @@ def two_point_members(
     given = [each for each in thrusts if not is_among(each.member, holders.every_cylinder)]
     found = []
     for bar in plan.cylinders:
-        strokes = {name for name in plan.strokes if name == bar.length.name or name in plan.reaches(bar.length)}
-        if (holders.strokes_taken.isdisjoint(strokes) or strokes in geared) and not holders.line_quantities & plan.reaches(bar.length):
+        behind = plan.reaches(bar.length.name or bar.length)
+        if (holders.strokes_taken.isdisjoint(behind) or {*plan.strokes} & behind in geared) and not holders.line_quantities & behind:
             found.append(Strut(joined_names(bar.P, bar.Q), bar.P, bar.Q, bar.length))
     struts = [*found, *cylinders, *known_struts(given)]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
@@ -457,9 +457,11 @@ class Structure:
         stroke, or a rack beside a body, only where `is_geared`. What lines of oil give is none of them.
         """
         plan, taken, groups = self.plan, self.holders.strokes_taken, list[list[frozenset[str]]]()
+        if not taken:
+            return set()
         found = [(each, *self.followed(each[1])) for each in plan.joints]
         joints = [(each, frozenset(names)) for each, strokes, given in found for letter, names in strokes.items() if letter not in given]
-        reaches = [plan.reaches(bar.length) for bar in plan.cylinders]
+        reaches = [plan.reaches(bar.length.name or bar.length) for bar in plan.cylinders]
         lengths = [frozenset({*plan.strokes} & each) for each in reaches if not self.holders.line_quantities & each]
         for names in [names for names in (*(names for _, names in joints), *lengths) if names & taken]:
             near = [group for group in groups if names & taken & frozenset().union(*group)]

@@ -77,18 +77,7 @@ class SurveyRun:
         try:
             while self.left.ranges or self._under_way:
                 while self.left.ranges and len(self._under_way) < self.sizes.ahead:
-                    # Send the next batch.
-                    start, stop = self.left.take(self.sizes.next_pieces(self.left.pieces_left))
-                    attempt, left = self._tries.get(start, 0), perf_counter()
-                    try:
-                        dimensions = self.designs.dimensions(start, stop)
-                        future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, attempt)
-                    except PICKLING_ERRORS as error:
-                        raise self._error(f"{self.task.what} {CANNOT_SEND}", error) from error
-                    except Exception as error:
-                        raise self._error("The executor takes no more work and has to be made anew", error) from error
-                    self._under_way[future] = start, stop, attempt, left
-                    future.add_done_callback(lambda done: self._back.put((done, perf_counter())))
+                    self._send()
                     while not self._back.empty():
                         self._take(*self._back.get())
                 if self._under_way:
@@ -109,6 +98,20 @@ class SurveyRun:
     def state(self) -> str:
         """How much of the study is done, and where it is kept."""
         return how_far(self.designs_done, self.designs.count, "designs", self.checkpoint.folder if self.checkpoint else None)
+
+    def _send(self) -> None:
+        """Send the next batch."""
+        start, stop = self.left.take(self.sizes.next_pieces(self.left.pieces_left))
+        attempt, left = self._tries.get(start, 0), perf_counter()
+        try:
+            dimensions = self.designs.dimensions(start, stop)
+            future = self.executor.submit(measure_batch, self.task, start, stop, dimensions, attempt)
+        except PICKLING_ERRORS as error:
+            raise self._error(f"{self.task.what} {CANNOT_SEND}", error) from error
+        except Exception as error:
+            raise self._error("The executor takes no more work and has to be made anew", error) from error
+        self._under_way[future] = start, stop, attempt, left
+        future.add_done_callback(lambda done: self._back.put((done, perf_counter())))
 
     def _take(self, future: Any, at: float) -> None:
         """Take a batch in; give it out again, a few times, where it was lost on the way."""

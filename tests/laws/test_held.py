@@ -501,6 +501,25 @@ def test_a_machine_that_is_assembled_nowhere_says_so_and_not_that_its_cylinder_h
             door()
 
 
+def test_a_length_that_is_a_stroke_itself_has_its_share_back_as_sums_have():
+    class Pair(Mechanism):
+        S, T = Stroke(0.7, 0.9), Stroke(0.0, 0.2)
+        A, O, C, N = Ground(0.5, -0.5), Ground(0.0, 0.0), Ground(1.6, -0.4), Ground(1.2, 0.2)
+        B = Dyad(A, O, AB=S, OB=0.8, side=RIGHT)
+        E = Dyad(C, N, CE=S + T - 0.2, NE=0.6, side=RIGHT)
+        w, v = Weight(B, mass=50.0), Weight(E, mass=70.0)
+        ram = Cylinder(A, B, bore=50 * mm, rod=30 * mm)
+
+    summed = type("Summed", (Pair,), {"S": Stroke(0.0, 0.2), "B": None, "E": None, "w": None, "v": None, "ram": None} | {
+        "B": Dyad("A", "O", AB=0.7 + ref("S"), OB=0.8, side=RIGHT), "E": Dyad("C", "N", CE=0.5 + ref("S") + ref("T"), NE=0.6, side=RIGHT),
+        "w": Weight("B", mass=50.0), "v": Weight("E", mass=70.0), "ram": Cylinder("A", "B", bore=50 * mm, rod=30 * mm),
+    })  # fmt: skip
+    for machine, S in ((Pair(), 0.8), (summed(), 0.1)):
+        motion = machine.at(S=S, T=0.1)
+        forces = pin_forces(motion)
+        assert_allclose([motion[thrust("ram")], forces.thrusts["ram"]], 1326.5953, rtol=1e-6)
+
+
 def arm_of(count, seed):
     """Return an arm of `count` links, each turned against the one before, with a ram from the frame to each."""
     random, members, turned = np.random.default_rng(seed), {"P0": Ground(0.0, 0.0)}, 0.0
